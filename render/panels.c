@@ -1,6 +1,5 @@
-#include "render/panels.h"
-
 #include "render/frame/passes.h"
+#include "render/renderer.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -1,20 +1,20 @@
-/* One picture, from particles to pixels: shadow, backdrop, solids, view, overlays, edges, legend. All
-   commands use this interface.
+/* Pictures: a renderer from particles to pixels, and several pictures in one. */
+#ifndef RENDER_RENDERER_H
+#define RENDER_RENDERER_H
 
-   Needs a current OpenGL 4.5 core context; use from the context's thread only. */
-#ifndef SLOSH_RENDERER_H
-#define SLOSH_RENDERER_H
-
-#include "render/frame/camera.h"
 #include "render/frame/frame.h"
 #include "render/frame/passes.h"
-#include "render/frame/picture_def.h"
+#include "sim/gpu/gl.h"
 #include "sim/gpu/particle_buffers.h"
-#include "sim/gpu/timer.h"
 #include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stdint.h>
+
+/* One picture, from particles to pixels: shadow, backdrop, solids, view, overlays, edges, legend. All
+   commands use this interface.
+
+   Needs a current OpenGL 4.5 core context; use from the context's thread only. */
 
 typedef struct Renderer Renderer;
 
@@ -25,15 +25,15 @@ ViewDef view_def_default(void);
 /* PARTICLE_*: the attributes that a state needs for a picture by `def`; NULL: for any picture. */
 unsigned renderer_attributes(const ViewDef *def);
 
-/* Copies def and world; a NULL world: unknown. Returns NULL on failure: unknown view or colormap, a size
-   that the driver does not support, no font. With kind "none" draws backdrop, solids, edges and legend
+/* Copies def and world; a NULL world: unknown. Returns NULL on failure: an unknown view or colormap, a size
+   that the driver does not support, or no font. With kind "none" draws backdrop, solids, edges and legend
    only. */
 Renderer *renderer_create(const ViewDef *def, const WorldDef *world, int width, int height, Error *error);
 void renderer_destroy(Renderer *renderer); /* NULL is allowed */
 
-/* Effective from the next picture on; def and world are copied. Return false on failure and change
-   nothing: unknown view or colormap, a size that the driver does not support. Cheap if only numbers
-   change. */
+/* Effective from the next picture on; def and world are copied. On failure both return false and change
+   nothing: an unknown view or colormap, or a size that the driver does not support. Calls are cheap if
+   only numbers change. */
 bool renderer_set_def(Renderer *renderer, const ViewDef *def, const WorldDef *world, Error *error);
 bool renderer_resize(Renderer *renderer, int width, int height, Error *error);
 
@@ -65,8 +65,8 @@ void renderer_present(Renderer *renderer, int x, int y);
    with a single picture at 0, 0. */
 void renderer_set_presents(Renderer *renderer, bool presents);
 
-/* Reads width * height reversed depths (1 at the near plane, 0 without any object), rows from the bottom
-   up. */
+/* For tests: reads width * height reversed depths (1 at the near plane, 0 without any object), rows from the
+   bottom up. */
 void renderer_read_depth(const Renderer *renderer, float *depth);
 
 /* From the next picture on, an automatic camera leaves these fractions of the width free, 0 .. 1; on the
@@ -94,11 +94,11 @@ void renderer_curve_ranges(const Renderer *renderer, double opacity[2], double s
 void renderer_set_late(Renderer *renderer, bool late);
 bool renderer_is_stale(const Renderer *renderer);
 
-/* True: colours exactly as in the colormap, without light and shadow. */
+/* For tests of colours. If true, colours are exactly those of the colormap, without light and shadow. */
 void renderer_set_plain(Renderer *renderer, bool plain);
 
 /* True: further pictures follow at once, as in a window. From the next picture on, views and overlays may
-   spread work on data that stays over several pictures. False: each picture is complete. */
+   spread work on data that stays over several pictures. If false, each picture is complete. */
 void renderer_set_continuous(Renderer *renderer, bool more);
 
 /* True if the last picture was no view into space: Frame.flat. */
@@ -120,5 +120,85 @@ bool renderer_can_probe(const Renderer *renderer, const double pixel[2]);
 struct ViewProbeRequest;
 struct ViewProbeAnswers;
 bool renderer_probe(Renderer *renderer, const struct ViewProbeRequest *asks, struct ViewProbeAnswers *out);
+
+/* Several pictures in one. A renderer per panel draws the same bits as a single picture of the panel's
+   size. One panel is the whole picture.
+
+   Needs a current OpenGL 4.5 core context; use from the context's thread only. */
+
+enum { PANELS_MAX = 4, PANELS_LINE = 2 /* least pixels between two panels */ };
+
+/* Pixels, from the left and the top of the picture. */
+typedef struct PanelRect {
+    int x, y, width, height;
+} PanelRect;
+
+/* Two panels are side by side, three are one at the left and two at the right, and four are two by two. Two
+   or four panels have equal sizes. Returns false if the picture is too small. */
+bool panels_layout(int count, int width, int height, PanelRect places[PANELS_MAX]);
+
+/* Index of the panel at x, y, or of the nearest panel. */
+int panels_index_at(const PanelRect places[], int count, double x, double y);
+
+typedef struct Panels Panels;
+
+/* 1 to PANELS_MAX subjects; defs and worlds are copied. Returns NULL on failure: as renderer_create, or
+   the picture is too small. */
+Panels *panels_create(const Subject subjects[], int count, int width, int height, Error *error);
+void panels_destroy(Panels *panels); /* NULL is allowed */
+
+/* The renderer of a panel; owned by `panels`. */
+Renderer *panels_renderer(const Panels *panels, int index);
+
+int panels_count(const Panels *panels);
+const PanelRect *panels_rects(const Panels *panels);
+
+/* Effective from the next picture on. Return false on failure and change nothing, as renderer_set_def and
+   renderer_resize. */
+bool panels_set_def(Panels *panels, int index, const ViewDef *def, const WorldDef *world, Error *error);
+bool panels_resize(Panels *panels, int width, int height, Error *error);
+bool panels_set_title(Panels *panels, int index, const Title *title, Error *error);
+
+/* `left`: fraction of the picture's width covered on the left, 0 .. 1. Several panels share the rest of
+   the width; a single panel uses renderer_set_covered. */
+bool panels_set_covered(Panels *panels, double left, Error *error);
+
+/* The fraction of a panel's width that automatic cameras leave free on the right: the widest legend. */
+double panels_legend(const Panels *panels);
+
+/* As renderer_set_late, for all panels. panels_are_stale: true if renderer_is_stale is true for any panel. */
+void panels_set_late(Panels *panels, bool late);
+bool panels_are_stale(const Panels *panels);
+/* As renderer_set_continuous and renderer_unfinished, for all panels. */
+void panels_set_continuous(Panels *panels, bool more);
+bool panels_unfinished(const Panels *panels);
+
+/* Draws a state in each panel. Panels that show the same scalar with automatic ranges share one range,
+   from the least low end to the greatest high end, so that colours mean the same. States without a number
+   are left out; symmetric ranges are symmetric about 0 over the shared range. Automatic cameras leave room
+   for the widest legend, so that equal boxes have equal positions. */
+void panels_draw(Panels *panels, const ParticleBuffers *const states[], GlTimer *timer);
+
+/* Gives a state that is not drawn to a panel's overlays that follow particles over time. */
+void panels_add_state(Panels *panels, int index, const ParticleBuffers *state);
+/* Frames one of several panels, from the next panels_present on; -1: none. */
+void panels_set_marked(Panels *panels, int index);
+
+/* For tests: GPU memory of a panel's derived data. A state shown by several panels is derived once, by the
+   first panel. */
+size_t panels_derived_bytes(const Panels *panels, int index);
+
+/* The range of a panel in the last picture, in the scalar's unit. */
+void panels_range(const Panels *panels, int index, double range[2]);
+
+/* The ranges of a panel's opacity and size, as renderer_curve_ranges. */
+void panels_curve_ranges(const Panels *panels, int index, double opacity[2], double size[2]);
+
+/* As renderer_set_presents, if there is one panel. */
+void panels_set_presents(Panels *panels, bool presents);
+
+/* The whole picture, as renderer_read and renderer_present, with a thin line between panels. */
+bool panels_read(const Panels *panels, uint8_t *rgb, Error *error);
+void panels_present(const Panels *panels);
 
 #endif

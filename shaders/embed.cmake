@@ -1,4 +1,4 @@
-# Writes the files SHADERS (paths below DIRECTORY) as the table of sim/gpu/program.h into the C file OUTPUT.
+# Writes the files SHADERS (paths below DIRECTORY) as the table of sim/gpu/gl.h into the C file OUTPUT.
 set(arrays "")
 set(table "")
 set(number 0)
@@ -9,5 +9,5 @@ foreach(shader IN LISTS SHADERS)
   string(APPEND table "    {\"${shader}\", shader_${number}},\n")
   math(EXPR number "${number} + 1")
 endforeach()
-file(WRITE "${OUTPUT}" "#include \"sim/gpu/program.h\"\n\n${arrays}\n"
+file(WRITE "${OUTPUT}" "#include \"sim/gpu/gl.h\"\n\n${arrays}\n"
      "const EmbeddedShader embedded_shaders[] = {\n${table}    {0, 0},\n};\n")

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Room for so many of both, to which the models add. */
+/* Capacity of both arrays, to which the models append. */
 static inline Triangles model_room(size_t vertices, size_t triangles)
 {
     return (Triangles){.vertex = malloc((vertices + 1) * sizeof(float[3])),
@@ -86,7 +86,7 @@ static inline void model_ball(Triangles *model, double radius, int n)
     }
 }
 
-/* A triangular pyramid from a far tip; `thin`: the distance of the corners of its base from its middle. */
+/* A triangular pyramid with a far tip; `thin`: the distance of the base's corners from the middle. */
 static inline void model_needle(Triangles *model, const double tip[3], const double base[3], double thin)
 {
     const double d[3] = {base[0] - tip[0], base[1] - tip[1], base[2] - tip[2]},

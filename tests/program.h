@@ -1,5 +1,5 @@
-/* One program a folder: tests/CMakeLists.txt renames the `main` of each tests/FOLDER/test_NAME.c to
-   test_NAME_main and lists it, so that `test_FOLDER NAME` runs it. */
+/* A single program per folder: tests/CMakeLists.txt renames the `main` of each tests/FOLDER/test_NAME.c
+   to test_NAME_main and lists the function, so that `test_FOLDER NAME` runs the test. */
 #ifndef SLOSH_TEST_PROGRAM_H
 #define SLOSH_TEST_PROGRAM_H
 

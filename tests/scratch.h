@@ -8,10 +8,10 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { SCRATCH_SIZE = 200, SCRATCH_PATH = 300 /* of what lies in one */ };
+enum { SCRATCH_SIZE = 200, SCRATCH_PATH = 300 /* of the folder's contents */ };
 
 static char scratch_root[SCRATCH_SIZE];
-static pid_t scratch_owner; /* whose children leave all as it is */
+static pid_t scratch_owner; /* leaves the folder's tree unchanged */
 
 /* A file, a link, or a folder and all in it; what a link names stays. */
 static inline void scratch_remove(const char *path)
@@ -21,7 +21,7 @@ static inline void scratch_remove(const char *path)
     FTS *tree = fts_open((char *const[]){whole, NULL}, FTS_PHYSICAL | FTS_NOCHDIR, NULL);
     FTSENT *entry;
     while (tree && (entry = fts_read(tree)))
-        if (entry->fts_info != FTS_D) /* a folder comes again behind what is in it */
+        if (entry->fts_info != FTS_D) /* the folder comes after the contents */
             remove(entry->fts_accpath);
     if (tree)
         fts_close(tree);
@@ -33,7 +33,7 @@ static inline void scratch_end(void)
         scratch_remove(scratch_root);
 }
 
-/* The name of nothing yet, which ends in `suffix`. */
+/* An unused name ending in `suffix`. */
 static inline char *scratch_name(char path[SCRATCH_SIZE], const char *suffix)
 {
     static int count;

@@ -1,5 +1,5 @@
 """pvpython tools/paraview_picture.py IN.pvd OUT.png [TIME]: the blocks of an export as ParaView draws them: fluids coloured by
-speed with a legend in its unit, solids grey. What it does step by step stands in docs/paraview.md. Needs a display, as of
+speed with a legend in its unit, solids grey. What it does step by step stands in docs/manual/paraview.md. Needs a display, as of
 xvfb-run, where ParaView is built for X."""
 import sys
 

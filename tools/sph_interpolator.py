@@ -1,6 +1,6 @@
 """Times ParaView's vtkSPHInterpolator on a plane across the middle of a snapshot's particles, with its cubic kernel:
 pvpython --no-mpi tools/sph_interpolator.py IN.vtp SUPPORT WIDTHxHEIGHT (m; the support radius is twice its spatial step).
-`slosh export --slice` is what it is held against in docs/views/slice.md. Prints the filter's time alone."""
+`slosh export --slice` is what it is held against in docs/labbook/views.md. Prints the filter's time alone."""
 import sys
 import time
 

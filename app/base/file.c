@@ -1,7 +1,5 @@
 #include "app/base/file.h"
 
-#include "app/base/output.h"
-
 #include <errno.h>
 #include <math.h>
 #include <stdint.h>
@@ -21,12 +19,13 @@ static bool too_large(const char *path, size_t limit, const char *what, Error *e
 /* Reads the file, but stops slightly above the limit. */
 static char *read_bytes(FILE *file, size_t limit, size_t *size)
 {
-    size_t room = 1 << 16;
-    char *bytes = malloc(room);
+    size_t capacity = 1 << 16;
+    char *bytes = malloc(capacity);
     *size = 0;
-    while (bytes && (*size += fread(bytes + *size, 1, room - *size, file)) == room && room <= limit) {
-        room *= 2;
-        char *more = realloc(bytes, room);
+    while (bytes && (*size += fread(bytes + *size, 1, capacity - *size, file)) == capacity &&
+           capacity <= limit) {
+        capacity *= 2;
+        char *more = realloc(bytes, capacity);
         if (!more)
             free(bytes);
         bytes = more;

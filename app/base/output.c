@@ -1,5 +1,5 @@
 #define _GNU_SOURCE /* getdents64 */
-#include "app/base/output.h"
+#include "app/base/file.h"
 
 #include <ctype.h>
 #include <dirent.h>
@@ -316,6 +316,22 @@ void output_discard(Output *output)
     forget(output);
 }
 
+bool output_print(const char *path, bool (*print)(const void *of, FILE *file), const void *of, Error *error)
+{
+    Output output = {.path = ""};
+    if (!output_begin(&output, path, error))
+        return false;
+    FILE *file = fopen(output.temp, "w");
+    if (file) {
+        const bool whole = print(of, file) && !ferror(file);
+        if (fclose(file) == 0 && whole)
+            return output_commit(&output, error);
+    }
+    error_set(error, "%s: cannot be written (%s)", path, strerror(errno));
+    output_discard(&output);
+    return false;
+}
+
 bool output_check(const char *path, Error *error)
 {
     Output output = {0};
@@ -432,13 +448,13 @@ void output_folder_discard(OutputFolder *folder)
 
 static void tell_unguarded(const char *path, int reason)
 {
-    static bool told;
-    if (!told)
+    static bool reported;
+    if (!reported)
         fprintf(
             stderr,
             "%s: cannot be locked here (%s): another slosh that writes the same file will not be noticed\n",
             path, strerror(reason));
-    told = true;
+    reported = true;
 }
 
 /* True if the open file still has the name. */

@@ -1,7 +1,7 @@
 #define _GNU_SOURCE /* REG_RIP */
 #include "app/base/program.h"
 
-#include "app/base/output.h"
+#include "app/base/file.h"
 #include "slosh/world.h"
 
 #include <errno.h>
@@ -160,8 +160,8 @@ static void on_crash(int number, siginfo_t *info, void *context)
 static void catch_crashes(void)
 {
     static const int fatal[] = {SIGSEGV, SIGBUS, SIGILL, SIGABRT};
-    static char room[1 << 16]; /* the stack may be full */
-    const stack_t stack = {.ss_sp = room, .ss_size = sizeof room};
+    static char capacity[1 << 16]; /* the stack may be full */
+    const stack_t stack = {.ss_sp = capacity, .ss_size = sizeof capacity};
     struct sigaction catch = {.sa_sigaction = on_crash, .sa_flags = SA_SIGINFO | SA_ONSTACK};
     sigemptyset(&catch.sa_mask);
     sigaltstack(&stack, NULL);
@@ -269,6 +269,12 @@ void progress_update(Progress *progress, double fraction)
         print_state(progress, fraction, (now_ms - progress->began_ms) / 1000);
         fputc('\n', progress->stream);
     }
+}
+
+int compare_numbers(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
 }
 
 void progress_end(Progress *progress)

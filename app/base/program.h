@@ -1,5 +1,5 @@
-/* The program as a process: exit codes, streams, signals, crashes of the driver, progress, its own
-   folders, the machine's memory, and "did you mean". */
+/* The program as a process: exit codes, streams, signals, crashes of the driver, progress, order of numbers,
+   its own folders, the machine's memory, and "did you mean". */
 #ifndef APP_BASE_PROGRAM_H
 #define APP_BASE_PROGRAM_H
 
@@ -72,8 +72,23 @@ void progress_begin(Progress *progress, FILE *stream, const char *what, bool qui
 /* Sets the done fraction, 0 .. 1. Cheap: call after every step. */
 void progress_update(Progress *progress, double fraction);
 
+/* A part of the work, which one of several jobs is. */
+typedef struct ProgressPart {
+    Progress *progress;
+    double done, part; /* fractions of the whole: before the job, and of the job */
+} ProgressPart;
+
+/* Sets the done fraction of the part. */
+static inline void progress_part_update(const ProgressPart *of, double fraction)
+{
+    progress_update(of->progress, of->done + of->part * fraction);
+}
+
 /* Erases the bar, so that the next message starts on a clean line. */
 void progress_end(Progress *progress);
+
+/* For qsort: doubles, the least first. */
+int compare_numbers(const void *a, const void *b);
 
 /* Locations of slosh's own files, for any place of the program. */
 

@@ -2,8 +2,8 @@
 
 #include "app/base/file.h"
 #include "app/base/program.h"
-#include "app/input/box_control.h"
-#include "app/run/measure/outcome.h"
+#include "app/input/input.h"
+#include "app/run/measure/measure.h"
 #include "app/run/session.h"
 
 #include <jansson.h>
@@ -42,18 +42,12 @@ static void samples_destroy(FrameSamples *samples)
     free(samples->frame_ms);
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Sorts `values` and returns the quantile `fraction` (0 to 1). */
 static double quantile(double *values, int count, double fraction)
 {
     if (count == 0)
         return 0;
-    qsort(values, (size_t)count, sizeof *values, ascending);
+    qsort(values, (size_t)count, sizeof *values, compare_numbers);
     const double at = fraction * (count - 1);
     const int low = (int)at;
     const int high = low + 1 < count ? low + 1 : low;
@@ -90,7 +84,7 @@ static double stage_figure(const FrameSamples *samples, Stage stage, const char 
     return sum;
 }
 
-static double part_median(const FrameSamples *samples, Part part, double *work)
+static double part_median(const FrameSamples *samples, StagePart part, double *work)
 {
     int count = 0;
     memset(work, 0, (size_t)samples->frames * sizeof *work);
@@ -142,7 +136,7 @@ typedef struct BenchRun {
     bool draws, sim_on_gpu;
 } BenchRun;
 
-static bool rank_session_open(BenchRun *stand, const BenchSetup *setup, Error *error)
+static bool stand_open(BenchRun *stand, const BenchSetup *setup, Error *error)
 {
     *stand = (BenchRun){.world = world_create(&setup->scene->world, error),
                         .def = &setup->scene->world,
@@ -194,18 +188,50 @@ static bool advance(BenchRun *stand, double from, Error *error)
     return true;
 }
 
-static bool warm_up(BenchRun *stand, Error *error)
+static void add_calls(GlCalls *sum, const GlCalls *before)
+{
+    const GlCalls more = gl_calls_since(before);
+    sum->calls += more.calls;
+    sum->dispatches += more.dispatches;
+    sum->waits += more.waits;
+    sum->readbacks += more.readbacks;
+}
+
+/* Runs a frame without a clock, and counts calls of the driver. */
+static bool counted_frame(BenchRun *stand, BenchResult *result, Error *error)
+{
+    WorldInfo before, after;
+    world_info(stand->world, &before);
+    GlCalls mark = gl_calls();
+    device_replay_apply(stand->hand, stand->world);
+    if (!world_step(stand->world, NULL, error))
+        return false;
+    add_calls(&result->sim_calls, &mark);
+    world_info(stand->world, &after);
+    result->called_substeps += stand->sim_on_gpu ? after.step - before.step : 0;
+    if (!stand->draws)
+        return true;
+    mark = gl_calls();
+    result->called_pictures++;
+    const bool drawn = offscreen_draw(&stand->offscreen, stand->world, NULL, NULL, error);
+    add_calls(&result->picture_calls, &mark);
+    return drawn;
+}
+
+/* The first frame makes buffers and programs; calls are counted in the next frames. */
+static bool warm_up(BenchRun *stand, BenchResult *result, Error *error)
 {
     StageClock clock;
     StageTimes unused;
-    for (int f = 0; f < WARM_UP_FRAMES; f++) {
-        if (!frame(stand, &clock, error))
-            return false;
-        gl_timer_frame(stand->timer, &unused);
-    }
+    bool ok = frame(stand, &clock, error);
+    gl_timer_frame(stand->timer, &unused);
+    for (int f = 1; ok && f < WARM_UP_FRAMES; f++)
+        ok = stand->timer ? counted_frame(stand, result, error) : frame(stand, &clock, error);
+    if (stand->timer)
+        gl_calls_end();
     while (gl_timer_drain(stand->timer, &unused))
         continue;
-    return true;
+    return ok;
 }
 
 static bool look(BenchRun *stand, Error *error)
@@ -318,11 +344,11 @@ bool bench_measure(const BenchSetup *setup, Progress *progress, double done, dou
     FrameSamples samples = {0};
     Error error = {{0}};
     name(setup, result);
-    bool ok = rank_session_open(&stand, setup, &error) &&
+    bool ok = stand_open(&stand, setup, &error) &&
               samples_create(&samples, setup->frames, stand.sim_on_gpu, &error);
     if (stand.world)
         describe(&stand, result);
-    ok = ok && advance(&stand, setup->from, &error) && warm_up(&stand, &error) &&
+    ok = ok && advance(&stand, setup->from, &error) && warm_up(&stand, result, &error) &&
          measure(&stand, setup, progress, done, part, &samples, &error) &&
          conclude(&stand, &samples, result, &error);
     judge(&stand, ok, &error, result);
@@ -347,6 +373,16 @@ const char *bench_processor(void)
     return name;
 }
 
+static void print_calls(const char *of, const GlCalls *calls, uint64_t times, FILE *file)
+{
+    const double each = 1 / (double)times;
+    if (times > 0)
+        fprintf(file,
+                "  a %s: %.0f calls of the driver, %.1f dispatches, %.1f waits, %.1f of them to read back\n",
+                of, (double)calls->calls * each, (double)calls->dispatches * each,
+                (double)calls->waits * each, (double)calls->readbacks * each);
+}
+
 static void print_parts(const BenchResult *r, FILE *file)
 {
     char words[SOLVE_FIGURES_WORDS], text[OUTCOME_TEXT];
@@ -364,6 +400,8 @@ static void print_parts(const BenchResult *r, FILE *file)
                 1e-9 * (double)r->unlisted);
     if (r->solved.steps > 0)
         fprintf(file, "  %s\n", solve_figures_text(&r->solved, words));
+    print_calls("substep", &r->sim_calls, r->called_substeps, file);
+    print_calls("picture", &r->picture_calls, r->called_pictures, file);
     fprintf(file, "  sim %.3f ms, upload %.3f ms, render %.3f ms, frame %.3f ms\n", r->sim_ms, r->upload_ms,
             r->render_ms, r->frame_ms);
     fprintf(file, "  %.3g million particle-steps/s, real-time factor %.2f, %.0f bytes a particle\n\n",
@@ -429,6 +467,15 @@ static json_t *stages_json(const BenchResult *r)
     return stages;
 }
 
+static json_t *calls_json(const GlCalls *calls, uint64_t times)
+{
+    const double each = 1 / (double)times;
+    return times == 0 ? json_null()
+                      : json_pack("{s:f, s:f, s:f, s:f}", "calls", (double)calls->calls * each, "dispatches",
+                                  (double)calls->dispatches * each, "waits", (double)calls->waits * each,
+                                  "readbacks", (double)calls->readbacks * each);
+}
+
 static json_t *failed_case_json(const BenchResult *r)
 {
     json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:s}", "scene", r->scene, "backend", r->backend, "method",
@@ -464,6 +511,10 @@ static json_t *result_json(const BenchResult *r)
     outcome_json(ok ? json : NULL, &r->outcome);
     if (ok)
         solve_figures_json(json, &r->solved);
+    if (ok && (r->called_substeps > 0 || r->called_pictures > 0))
+        json_object_set_new(json, "gl",
+                            json_pack("{s:o, s:o}", "substep", calls_json(&r->sim_calls, r->called_substeps),
+                                      "picture", calls_json(&r->picture_calls, r->called_pictures)));
     if (ok && r->counts.counted)
         json_object_set_new(json, "coverage", json_real(r->counts.coverage));
     if (ok && r->swept[0])

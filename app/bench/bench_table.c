@@ -1,7 +1,7 @@
-#include "app/bench/bench_table.h"
+#include "app/bench/bench.h"
 
 #include "app/bench/cases/case.h"
-#include "app/bench/gnuplot.h"
+#include "app/bench/plot.h"
 #include "render/frame/view.h"
 
 #include <stdlib.h>
@@ -281,7 +281,7 @@ static const BenchResult *any_measured(const BenchResult *results, size_t count)
 bool bench_table_print(const BenchTable *table, const BenchResult *results, size_t count, FILE *file,
                        Error *error)
 {
-    static Reference reference;
+    Reference reference = {.rows = 0};
     const BenchResult *any = any_measured(results, count);
     if (table->reference && !reference_load(table->reference, &reference, error))
         return false;
@@ -333,111 +333,84 @@ static double share(const BenchTable *table, const BenchResult *r)
     return all > 0 ? 100 * bench_table_value(table, r, 0) / all : 0;
 }
 
-static void label(FILE *gnuplot, const char *name, const char *words)
+/* Draws the published shares of an engine. */
+static void draw_published(const BenchTable *table, const Reference *reference, const char *engine, int point,
+                           Plot *plot)
 {
-    char text[384];
-    snprintf(text, sizeof text, "%s%s", name, words);
-    gnuplot_quote(gnuplot, text);
-}
-
-/* Writes one data block per line of the chart; returns the count of lines. */
-static int share_data(const BenchTable *table, const BenchResult *results, size_t count, FILE *gnuplot)
-{
-    int lines = 0;
-    for (size_t i = 0; i < count && lines < LINES_MAX; i++) {
-        if (seen_before(results, i))
-            continue;
-        fprintf(gnuplot, "$line%d << EOD\n", lines++);
-        for (size_t k = i; k < count; k++)
-            if (!*results[k].failure.message && strcmp(results[k].view, results[i].view) == 0 &&
-                strcmp(results[k].backend, results[i].backend) == 0)
-                fprintf(gnuplot, "%zu %.4f\n", results[k].particles, share(table, &results[k]));
-        fputs("EOD\n", gnuplot);
-    }
-    return lines;
-}
-
-static void published_data(const BenchTable *table, const Reference *reference, const char *engine,
-                           FILE *gnuplot)
-{
-    fprintf(gnuplot, "$%s << EOD\n", engine);
+    char title[32];
+    snprintf(title, sizeof title, "%s, published", engine);
+    plot_series(plot, title, "with linespoints lw 2 dt 2 lc '#8795a3' pt %d", point);
     for (int row = 0; row < reference->rows; row++) {
         double all = 0;
         if (strcmp(reference_text(reference, row, "engine"), engine) != 0)
             continue;
         for (int c = 0; table->columns[c].title; c++)
             all += reference_number(reference, row, table->columns[c].title);
-        fprintf(gnuplot, "%s %.4f\n", reference_text(reference, row, "particles"),
-                100 * reference_number(reference, row, table->columns[0].title) / all);
+        plot_point(plot, reference_number(reference, row, "particles"),
+                   100 * reference_number(reference, row, table->columns[0].title) / all);
     }
-    fputs("EOD\n", gnuplot);
 }
 
+/* Draws a line for each view and backend. */
 static void draw_shares(const BenchTable *table, const BenchResult *results, size_t count,
-                        const Reference *reference, FILE *gnuplot)
+                        const Reference *reference, Plot *plot)
 {
-    int line = 0;
-    published_data(table, reference, "CPU", gnuplot);
-    published_data(table, reference, "GPU", gnuplot);
-    share_data(table, results, count, gnuplot);
-    fputs("set logscale x 2\nset yrange [0:100]\nset xlabel 'particles'\n"
-          "set ylabel 'share of the frame that is simulation, %'\n"
-          "plot $CPU with linespoints lw 2 dt 2 lc '#8795a3' pt 4 title 'CPU, published', "
-          "$GPU with linespoints lw 2 dt 2 lc '#8795a3' pt 6 title 'GPU, published'",
-          gnuplot);
-    for (size_t i = 0; i < count && line < LINES_MAX; i++) {
-        char words[80];
+    fputs("set logscale x 2\nset yrange [0:100]\n", plot_commands(plot));
+    plot_set(plot, "xlabel", "particles", "");
+    plot_set(plot, "ylabel", "share of the frame that is simulation, %", "");
+    draw_published(table, reference, "CPU", 4, plot);
+    draw_published(table, reference, "GPU", 6, plot);
+    for (size_t i = 0, line = 0; i < count && line < LINES_MAX; i++) {
+        char title[80];
         if (seen_before(results, i))
             continue;
-        fprintf(gnuplot, ", $line%d with linespoints lw 2 lt %d pt 7 title ", line, line + 1);
-        line++;
-        snprintf(words, sizeof words, ", %s", results[i].view);
-        label(gnuplot, results[i].backend, words);
+        snprintf(title, sizeof title, "%s, %s", results[i].backend, results[i].view);
+        plot_series(plot, title, "with linespoints lw 2 lt %zu pt 7", ++line);
+        for (size_t k = i; k < count; k++)
+            if (!*results[k].failure.message && strcmp(results[k].view, results[i].view) == 0 &&
+                strcmp(results[k].backend, results[i].backend) == 0)
+                plot_point(plot, (double)results[k].particles, share(table, &results[k]));
     }
-    fputc('\n', gnuplot);
 }
 
 /* Draws stacked bars, one per result. */
-static void draw_times(const BenchTable *table, const BenchResult *results, size_t count, FILE *gnuplot)
+static void draw_times(const BenchTable *table, const BenchResult *results, size_t count, Plot *plot)
 {
-    fputs("$bars << EOD\n", gnuplot);
+    const char *titles[BENCH_TABLE_COLUMNS + 1] = {NULL};
+    const int columns = column_count(table);
+    for (int c = 0; c < columns; c++)
+        titles[c] = table->columns[c].title;
+    plot_set(plot, "ylabel", "time of a frame, ms", "");
+    fputs("set bmargin 5\n", plot_commands(plot));
+    plot_bars(plot, titles, NULL);
     for (size_t i = 0; i < count; i++) {
-        if (*results[i].failure.message)
+        const BenchResult *r = &results[i];
+        double values[BENCH_TABLE_COLUMNS];
+        if (*r->failure.message)
             continue;
+        for (int c = 0; c < columns; c++)
+            values[c] = bench_table_value(table, r, c);
         if (table->sweep)
-            fprintf(gnuplot, "\"%s\\n%zu\"", bench_table_row_name(table, &results[i]), results[i].particles);
+            plot_bar(plot, values, "%s\\n%zu", bench_table_row_name(table, r), r->particles);
         else
-            fprintf(gnuplot, "\"%s\\n%s\\n%d x %g s\"", results[i].backend, results[i].view,
-                    results[i].substeps, results[i].dt_substep);
-        for (int c = 0; table->columns[c].title; c++)
-            fprintf(gnuplot, " %.4f", bench_table_value(table, &results[i], c));
-        fputc('\n', gnuplot);
+            plot_bar(plot, values, "%s\\n%s\\n%d x %g s", r->backend, r->view, r->substeps, r->dt_substep);
     }
-    fputs("EOD\nset style data histograms\nset style histogram rowstacked\nset style fill solid noborder\n"
-          "set boxwidth 0.7\nset bmargin 5\nset yrange [0:*]\nset ylabel 'time of a frame, ms'\nplot ",
-          gnuplot);
-    for (int c = 0; table->columns[c].title; c++) {
-        fprintf(gnuplot, "%s$bars using %d%s lt %d title ", c ? ", " : "", c + 2, c ? "" : ":xtic(1)", c + 1);
-        label(gnuplot, table->columns[c].title, "");
-    }
-    fputc('\n', gnuplot);
 }
 
 bool bench_table_draw(const BenchTable *table, const BenchResult *results, size_t count, const char *path,
                       Error *error)
 {
-    static Reference reference;
-    Gnuplot chart = {.gnuplot = NULL};
+    Reference reference = {.rows = 0};
+    Plot plot = {.gnuplot = NULL};
     const int bars = table->shares ? 0 : MARGINS + BAR * (int)count, width = bars > WIDTH ? bars : WIDTH;
     if ((table->reference && !reference_load(table->reference, &reference, error)) ||
-        !gnuplot_begin(&chart, path, width, HEIGHT, error))
+        !plot_begin(&plot, path, width, HEIGHT, error))
         return false;
-    fputs("set title ", chart.gnuplot);
-    label(chart.gnuplot, count > 0 ? results[0].renderer : "", "");
-    fputc('\n', chart.gnuplot);
+    plot_set(&plot, "title", count > 0 ? results[0].renderer : "", "");
     if (table->shares)
-        draw_shares(table, results, count, &reference, chart.gnuplot);
+        draw_shares(table, results, count, &reference, &plot);
     else
-        draw_times(table, results, count, chart.gnuplot);
-    return gnuplot_end(&chart, error);
+        draw_times(table, results, count, &plot);
+    plot_draw(&plot, NULL);
+    return plot_end(&plot, error);
 }

@@ -1,4 +1,3 @@
-#include "app/bench/micro.h"
 #include "app/bench/bench.h"
 
 #include "app/base/file.h"

@@ -1,10 +1,9 @@
-#include "app/bench/points_bench.h"
+#include "app/bench/bench.h"
 
 #include "app/base/file.h"
 #include "app/base/program.h"
-#include "sim/base/parallel.h"
-#include "sim/points/fields.h"
-#include "sim/points/sampling.h"
+#include "sim/base/base.h"
+#include "sim/points/points.h"
 #include "slosh/world.h"
 
 #include <jansson.h>

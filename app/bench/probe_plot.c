@@ -1,8 +1,6 @@
-#include "app/bench/probe_plot.h"
-
-#include "app/bench/gnuplot.h"
-#include "app/run/measure/metric.h"
-#include "app/run/measure/probe.h"
+#include "app/bench/bench.h"
+#include "app/bench/plot.h"
+#include "app/run/measure/measure.h"
 
 #include <errno.h>
 #include <math.h>
@@ -47,7 +45,7 @@ static bool is_table(const char *path)
 /* Returns true if `path` is valid for --probes: FILE.csv, FILE.svg, FILE.png. */
 static bool probe_plot_check_name(const char *path, Error *error)
 {
-    if (is_table(path) || gnuplot_check_name(path, NULL))
+    if (is_table(path) || plot_check_name(path, NULL))
         return true;
     return error_set(error, "'%.300s' is no name for what probes read; name a FILE.csv, FILE.svg or FILE.png",
                      path);
@@ -77,7 +75,7 @@ static bool probe_plot_check(const char *path, Error *error)
     probe_plot_table(path, table);
     return output_check(path, error) &&
            (is_table(path) ||
-            (output_check(table, error) && gnuplot_check(path, error) && may_replace(path, table, error)));
+            (output_check(table, error) && plot_check(path, error) && may_replace(path, table, error)));
 }
 
 static void probe_plot_table(const char *path, char table[1024])
@@ -163,13 +161,13 @@ static size_t rows_of(FILE *file)
 static bool read_table(ProbeRows *table, const char *path, Error *error)
 {
     char *text = NULL;
-    size_t room = 0, number = 0;
+    size_t capacity = 0, number = 0;
     FILE *file = fopen(path, "r");
     if (!file)
         return error_set(error, "%.300s: %s", path, strerror(errno));
     const size_t rows_a_point = rows_of(file) / POINTS + 1;
-    const bool ok = getline(&text, &room, file) > 0 && read_head(table, text);
-    while (ok && getline(&text, &room, file) > 0)
+    const bool ok = getline(&text, &capacity, file) > 0 && read_head(table, text);
+    while (ok && getline(&text, &capacity, file) > 0)
         add_row(table, text, number++, rows_a_point);
     for (int k = 0; ok && k < table->count; k++)
         end_point(&table->line[k]);
@@ -214,24 +212,8 @@ static void choose(ProbeRows *table, const int first[PLOTS_MAX], int panels, con
                 CURVES_MAX, left_out);
 }
 
-static void put_curves(const ProbeRows *table, FILE *gnuplot)
-{
-    for (int k = 0; k < table->count; k++) {
-        const Curve *curve = &table->line[k].curve;
-        if (!table->line[k].drawn)
-            continue;
-        fprintf(gnuplot, "$line%d << EOD\n", k);
-        for (size_t i = 0; i < curve->count; i++)
-            if (isfinite(curve->at[i][1]))
-                fprintf(gnuplot, "%.9g %.9g\n", curve->at[i][0], curve->at[i][1]);
-            else
-                fputc('\n', gnuplot);
-        fputs("EOD\n", gnuplot);
-    }
-}
-
 /* Sets the time range of all panels. */
-static void put_times(const ProbeRows *table, FILE *gnuplot)
+static void put_times(const ProbeRows *table, Plot *plot)
 {
     double from = INFINITY, to = -INFINITY;
     for (const PlotLine *line = table->line; line < table->line + table->count; line++)
@@ -240,11 +222,11 @@ static void put_times(const ProbeRows *table, FILE *gnuplot)
                 from = fmin(from, line->curve.at[i][0]);
                 to = fmax(to, line->curve.at[i][0]);
             }
-    fprintf(gnuplot, "set xrange [%.9g:%.9g]\n", from, to > from ? to : from + 1e-3);
+    plot_axis(plot, "x", from, to > from ? to : from + 1e-3, false);
 }
 
 /* Sets the value range; gnuplot warns about empty ranges. */
-static void put_range(const ProbeRows *table, const char *unit, FILE *gnuplot)
+static void put_range(const ProbeRows *table, const char *unit, Plot *plot)
 {
     double low = INFINITY, high = -INFINITY;
     for (const PlotLine *line = table->line; line < table->line + table->count; line++)
@@ -253,16 +235,15 @@ static void put_range(const ProbeRows *table, const char *unit, FILE *gnuplot)
             high = fmax(high, line->curve.at[i][1]);
         }
     const double wide = high - low > 0 ? 0.04 * (high - low) : fmax(0.1 * fabs(low), 1e-3);
-    fprintf(gnuplot, "set yrange [%.9g:%.9g]\n", low - wide, high + wide);
+    plot_axis(plot, "y", low - wide, high + wide, false);
 }
 
-static void plot_panel(const ProbeRows *table, const char *unit, FILE *gnuplot)
+static void draw_panel(const ProbeRows *table, const char *unit, Plot *plot)
 {
     int lines = 0, more = 0;
-    put_range(table, unit, gnuplot);
-    fputs("set ylabel ", gnuplot);
-    gnuplot_quote(gnuplot, unit);
-    fputs("\nplot ", gnuplot);
+    char others[32];
+    put_range(table, unit, plot);
+    plot_set(plot, "ylabel", unit, "");
     for (int k = 0; k < table->count; k++) {
         const PlotLine *line = &table->line[k];
         if (strcmp(line->unit, unit) != 0 || line->curve.count == 0)
@@ -270,18 +251,15 @@ static void plot_panel(const ProbeRows *table, const char *unit, FILE *gnuplot)
         more += lines >= NAMES_MAX || !line->drawn;
         if (!line->drawn)
             continue;
-        fprintf(gnuplot, "%s$line%d with lines lw 1.2 lt %d ", lines ? ", " : "", k, lines + 1);
         lines++;
-        if (lines <= NAMES_MAX) {
-            fputs("title ", gnuplot);
-            gnuplot_quote(gnuplot, line->name);
-        } else {
-            fputs("notitle", gnuplot);
-        }
+        plot_series(plot, lines <= NAMES_MAX ? line->name : NULL, "with lines lw 1.2 lt %d", lines);
+        for (size_t i = 0; i < line->curve.count; i++)
+            plot_point(plot, line->curve.at[i][0], line->curve.at[i][1]);
     }
+    snprintf(others, sizeof others, "and %d more", more);
     if (more > 0)
-        fprintf(gnuplot, ", NaN with lines lc '#ffffff' title 'and %d more'", more);
-    fputc('\n', gnuplot);
+        plot_function(plot, others, "NaN with lines lc '#ffffff'");
+    plot_draw(plot, NULL);
 }
 
 static bool tell_nothing(const char *path)
@@ -292,25 +270,24 @@ static bool tell_nothing(const char *path)
 
 static bool draw(ProbeRows *table, const char *path, const char *title, Error *error)
 {
-    Gnuplot chart = {.gnuplot = NULL};
+    Plot plot = {.gnuplot = NULL};
+    char layout[64];
     int first[PLOTS_MAX];
     const int panels = panels_of(table, first);
     if (panels == 0)
         return tell_nothing(path);
-    if (!gnuplot_begin(&chart, path, WIDTH, TITLE_HEIGHT + PANEL_HEIGHT * panels, error))
+    if (!plot_begin(&plot, path, WIDTH, TITLE_HEIGHT + PANEL_HEIGHT * panels, error))
         return false;
     choose(table, first, panels, path);
-    put_curves(table, chart.gnuplot);
-    fprintf(chart.gnuplot,
-            "set key outside right top noenhanced samplen 2 font ',9'\nset multiplot layout %d,1 title ",
-            panels);
-    gnuplot_quote(chart.gnuplot, title);
-    fputs(" noenhanced\nset xlabel 'time, s'\nset rmargin 30\nset lmargin 12\n", chart.gnuplot);
-    put_times(table, chart.gnuplot);
+    snprintf(layout, sizeof layout, "multiplot layout %d,1 title", panels);
+    plot_set(&plot, layout, title, " noenhanced");
+    fputs("set key outside right top noenhanced samplen 2 font ',9'\nset rmargin 30\nset lmargin 12\n",
+          plot_commands(&plot));
+    plot_set(&plot, "xlabel", "time, s", "");
+    put_times(table, &plot);
     for (int p = 0; p < panels; p++)
-        plot_panel(table, table->line[first[p]].unit, chart.gnuplot);
-    fputs("unset multiplot\n", chart.gnuplot);
-    return gnuplot_end(&chart, error);
+        draw_panel(table, table->line[first[p]].unit, &plot);
+    return plot_end(&plot, error);
 }
 
 static bool probe_plot(const char *path, const char *title, Error *error)
@@ -327,37 +304,38 @@ static bool probe_plot(const char *path, const char *title, Error *error)
 
 /* --probes of a run. */
 
-bool run_probes_check(const Session *session, const Args *args, Error *error)
+bool run_probes_check(const Session *session, const char *probes, bool quiet, Error *error)
 {
-    const bool any = session->scene.probes.count > 0;
-    if (any && !args->probes && !args->quiet)
-        fprintf(stderr, "%s: its probes are not read; --probes FILE.csv writes them\n", session->scene.path);
-    if (!args->probes)
+    const bool any = session->run.scene.probes.count > 0;
+    if (any && !probes && !quiet)
+        fprintf(stderr, "%s: its probes are not read; --probes FILE.csv writes them\n",
+                session->run.scene.path);
+    if (!probes)
         return true;
-    return any ? probe_plot_check_name(args->probes, error)
+    return any ? probe_plot_check_name(probes, error)
                : error_set(error, "%.300s has no probes for --probes; slosh help keys says how to name some",
-                           session->scene.path);
+                           session->run.scene.path);
 }
 
-bool run_probes_check_table(const Args *args, bool resumed, Error *error)
+bool run_probes_check_table(const char *probes, bool resumed, Error *error)
 {
     char table[1024];
-    if (!args->probes)
+    if (!probes)
         return true;
-    probe_plot_table(args->probes, table);
-    return probe_plot_check(args->probes, error) && (resumed || probe_table_check(table, error));
+    probe_plot_table(probes, table);
+    return probe_plot_check(probes, error) && (resumed || probe_table_check(table, error));
 }
 
-bool run_probes_begin(ProbeSeries *series, Session *session, const Args *args, bool resumed, Error *error)
+bool run_probes_begin(ProbeSeries *series, Session *session, const char *probes, bool resumed, Error *error)
 {
     char table[1024];
-    if (!args->probes)
+    if (!probes)
         return true;
-    probe_plot_table(args->probes, table);
+    probe_plot_table(probes, table);
     return probe_series_begin(series, session, table, resumed, error);
 }
 
-bool run_probes_draw(const ProbeSeries *series, const Session *session, const Args *args, Error *error)
+bool run_probes_draw(const ProbeSeries *series, const Session *session, const char *probes, Error *error)
 {
-    return !series->table.figures || probe_plot(args->probes, session->scene.title, error);
+    return !series->table.figures || probe_plot(probes, session->run.scene.title, error);
 }

@@ -1,8 +1,8 @@
-#include "app/bench/validate.h"
+#include "app/bench/bench.h"
 
 #include "app/base/file.h"
-#include "app/bench/gnuplot.h"
-#include "app/run/measure/outcome.h"
+#include "app/bench/plot.h"
+#include "app/run/measure/measure.h"
 
 #include <math.h>
 
@@ -128,16 +128,13 @@ bool validate_write_json(const CaseResult *results, const Outcome *outcomes, siz
     return written;
 }
 
-static void put_curve(FILE *gnuplot, const char *name, size_t i, int c, const Curve *curve)
+static void put_curve(Plot *plot, const Curve *curve)
 {
-    fprintf(gnuplot, "$%s%zu_%d << EOD\n", name, i, c);
     for (size_t k = 0; k < curve->count; k++)
         if (isfinite(curve->at[k][0]) && isfinite(curve->at[k][1]))
-            fprintf(gnuplot, "%.9g %.9g\n", curve->at[k][0], curve->at[k][1]);
-    fputs("EOD\n", gnuplot);
+            plot_point(plot, curve->at[k][0], curve->at[k][1]);
 }
 
-/* True if the curve has a finite point: gnuplot cannot plot an empty curve. */
 static bool has_points(const Curve *curve)
 {
     for (size_t k = 0; k < curve->count; k++)
@@ -146,26 +143,34 @@ static bool has_points(const Curve *curve)
     return false;
 }
 
-static int plot_found(const CaseResult *results, size_t count, FILE *gnuplot)
+static void put_found(const CaseResult *results, size_t count, Plot *plot)
 {
-    const CasePlot *plot = &results[0].of->plot;
+    const CasePlot *of = &results[0].of->plot;
     int lines = 0;
     for (size_t i = 0; i < count; i++)
-        for (int c = 0; c < CASE_CURVES && plot->found[c]; c++) {
+        for (int c = 0; c < CASE_CURVES && of->found[c]; c++) {
             char title[128];
-            if (!has_points(&results[i].run.found[c]))
-                continue;
-            snprintf(title, sizeof title, "%s, %s", plot->found[c], results[i].scene.world.method);
-            fprintf(gnuplot, "%s$found%zu_%d with %s lt %d title ", lines ? ", " : "plot ", i, c,
-                    plot->dots ? "points pt 7 ps 0.3" : "lines lw 2", lines + 1);
-            lines++;
-            gnuplot_quote(gnuplot, title);
+            snprintf(title, sizeof title, "%s, %s", of->found[c], results[i].scene.world.method);
+            lines += has_points(&results[i].run.found[c]);
+            plot_series(plot, title, "with %s lt %d", of->dots ? "points pt 7 ps 0.3" : "lines lw 2", lines);
+            put_curve(plot, &results[i].run.found[c]);
         }
-    return lines;
+}
+
+static void put_expected(const CaseResult *result, Plot *plot)
+{
+    const CasePlot *of = &result->of->plot;
+    for (int c = 0; c < CASE_CURVES && of->expected[c]; c++) {
+        plot_series(plot, of->expected[c], "with %s lc '#2a3440'",
+                    !of->points ? "lines lw 1.5 dt 2"
+                    : c == 0    ? "points pt 6 ps 1 lw 2"
+                                : "points pt 2 ps 0.7");
+        put_curve(plot, &result->run.expected[c]);
+    }
 }
 
 /* Widens the range around constant data: gnuplot warns about empty ranges. */
-static void put_range(const CaseResult *results, size_t count, FILE *gnuplot)
+static void put_range(const CaseResult *results, size_t count, Plot *plot)
 {
     double low = INFINITY, high = -INFINITY;
     for (size_t i = 0; i < count; i++)
@@ -175,47 +180,24 @@ static void put_range(const CaseResult *results, size_t count, FILE *gnuplot)
                 high = fmax(high, results[i].run.found[c].at[k][1]);
             }
     if (high >= low && high - low <= 1e-12)
-        fprintf(gnuplot, "set yrange [%.9g:%.9g]\n", low - 1, high + 1);
-}
-
-static void plot_all(const CaseResult *results, size_t count, FILE *gnuplot)
-{
-    const CasePlot *plot = &results[0].of->plot;
-    put_range(results, count, gnuplot);
-    int lines = plot_found(results, count, gnuplot);
-    for (int c = 0; c < CASE_CURVES && plot->expected[c]; c++) {
-        if (!has_points(&results[0].run.expected[c]))
-            continue;
-        fprintf(gnuplot, "%s$expected0_%d with %s lc '#2a3440' title ", lines++ ? ", " : "plot ", c,
-                !plot->points ? "lines lw 1.5 dt 2"
-                : c == 0      ? "points pt 6 ps 1 lw 2"
-                              : "points pt 2 ps 0.7");
-        gnuplot_quote(gnuplot, plot->expected[c]);
-    }
-    fputs(lines ? "\n" : "plot 0 notitle\n", gnuplot);
+        plot_axis(plot, "y", low - 1, high + 1, false);
 }
 
 bool validate_plot(const CaseResult *results, size_t count, const char *path, Error *error)
 {
     const Case *of = results[0].of;
-    Gnuplot chart = {.gnuplot = NULL};
+    Plot plot = {.gnuplot = NULL};
     char title[256];
-    if (!gnuplot_begin(&chart, path, WIDTH, HEIGHT, error))
+    if (!plot_begin(&plot, path, WIDTH, HEIGHT, error))
         return false;
-    for (size_t i = 0; i < count; i++)
-        for (int c = 0; c < CASE_CURVES; c++) {
-            put_curve(chart.gnuplot, "found", i, c, &results[i].run.found[c]);
-            put_curve(chart.gnuplot, "expected", i, c, &results[i].run.expected[c]);
-        }
     snprintf(title, sizeof title, "%s: %zu particle%s", of->help, results[0].particles,
              plural(results[0].particles));
-    fputs("set title ", chart.gnuplot);
-    gnuplot_quote(chart.gnuplot, title);
-    fputs("\nset xlabel ", chart.gnuplot);
-    gnuplot_quote(chart.gnuplot, of->plot.x);
-    fputs("\nset ylabel ", chart.gnuplot);
-    gnuplot_quote(chart.gnuplot, of->plot.y);
-    fputc('\n', chart.gnuplot);
-    plot_all(results, count, chart.gnuplot);
-    return gnuplot_end(&chart, error);
+    plot_set(&plot, "title", title, "");
+    plot_set(&plot, "xlabel", of->plot.x, "");
+    plot_set(&plot, "ylabel", of->plot.y, "");
+    put_range(results, count, &plot);
+    put_found(results, count, &plot);
+    put_expected(&results[0], &plot);
+    plot_draw(&plot, NULL);
+    return plot_end(&plot, error);
 }

@@ -1,22 +1,18 @@
 /* The plan of `slosh bench`: scenes, and the settings of each case. */
 #include "app/bench/bench.h"
 #include "app/base/file.h"
-#include "app/base/output.h"
 #include "app/base/program.h"
-#include "app/bench/bench_table.h"
-#include "app/bench/gnuplot.h"
-#include "app/bench/micro.h"
-#include "app/bench/points_bench.h"
+#include "app/bench/plot.h"
 #include "app/cli/args/args.h"
 #include "app/cli/cli_private.h"
-#include "app/cli/sweep.h"
-#include "app/input/device/devices.h"
-#include "app/input/mapping.h"
+#include "app/cli/option_rows.h"
+#include "app/input/device/device.h"
+#include "app/input/input.h"
 #include "app/lab/ablate.h"
 #include "app/run/offscreen.h"
 #include "app/scene/scene.h"
 #include "app/window/play.h"
-#include "sim/start/seed.h"
+#include "sim/start/start.h"
 
 #include <assert.h>
 #include <stdio.h>
@@ -59,30 +55,24 @@ static bool narrow(BenchPlan *plan, const char *setting, const char *said)
 static bool plan_table(BenchPlan *plan, Error *error)
 {
     const Args *args = plan->args;
-    int count = 0;
-    plan->table = bench_table_find(args->table, error);
+    plan->table = bench_table_find(options_of_bench(args)->table, error);
     if (!plan->table)
         return false;
-    if (args->scene_count || args->sweep_count || args->play)
+    if (args->scene_count || args->sweep_count || options_of_bench(args)->play)
         return error_set(error,
                          "slosh bench: --table brings its own scenes and sweeps; leave the others out");
-    if (args->output && !gnuplot_check_name(args->output, error))
+    if (args->output && !plot_check_name(args->output, error))
         return false;
     plan->scene_count = bench_table_scenes(plan->table, &plan->scenes);
     plan->sweep_count = bench_table_sweeps(plan->table, plan->sweeps);
-    memset(plan->settings.said, 0, sizeof plan->settings.said);
+    plan->settings.count = 0;
     for (int i = 0; i < BENCH_TABLE_SETTINGS && plan->table->settings[i]; i++)
-        plan->settings.set[count++] = plan->table->settings[i];
-    for (int i = 0; i < args->settings.count; i++) {
-        if (count == SCENE_SETTINGS_MAX)
-            return error_set(error, "more than %d settings; write them into the scene file",
-                             SCENE_SETTINGS_MAX);
-        if (narrow(plan, args->settings.set[i], args->settings.said[i]))
-            continue;
-        plan->settings.said[count] = args->settings.said[i];
-        plan->settings.set[count++] = args->settings.set[i];
-    }
-    plan->settings.count = count;
+        if (!scene_settings_add(&plan->settings, NULL, plan->table->settings[i], error))
+            return false;
+    for (int i = 0; i < args->settings.count; i++)
+        if (!narrow(plan, args->settings.set[i], args->settings.said[i]) &&
+            !scene_settings_add(&plan->settings, args->settings.said[i], args->settings.set[i], error))
+            return false;
     return true;
 }
 
@@ -93,7 +83,7 @@ static bool plan_micro(BenchPlan *plan, Error *error)
         .key = "particles", .count = 5, .values = {"10000", "30000", "100000", "1000000", "4000000"}};
     const Args *args = plan->args;
     bool chosen = args->settings.particles > 0;
-    if (args->table || args->play || args->device)
+    if (options_of_bench(args)->table || options_of_bench(args)->play || args->device)
         return error_set(error, "slosh bench: --micro stands alone; leave --table, --play and --device out");
     for (int i = 0; i < plan->sweep_count; i++) {
         assert(plan->sweeps[i].key);
@@ -109,21 +99,22 @@ static bool plan_micro(BenchPlan *plan, Error *error)
 
 static bool bench_plan_make(const Args *args, BenchPlan *plan, Error *error)
 {
+    const BenchOptions *own = options_of_bench(args);
     *plan = (BenchPlan){.args = args,
                         .scenes = args->scenes,
                         .scene_count = (size_t)args->scene_count,
                         .settings = args->settings,
                         .sweep_count = args->sweep_count};
     memcpy(plan->sweeps, args->sweeps, sizeof plan->sweeps);
-    if (args->table && !plan_table(plan, error))
+    if (own->table && !plan_table(plan, error))
         return false;
-    if (args->output && !args->table)
+    if (args->output && !own->table)
         return error_set(error, "slosh bench: -o is the chart of a --table; name one, or leave it out");
     if (plan->scene_count == 0) {
         plan->scenes = default_scenes;
-        plan->scene_count = args->micro ? 1 : sizeof default_scenes / sizeof *default_scenes;
+        plan->scene_count = own->micro ? 1 : sizeof default_scenes / sizeof *default_scenes;
     }
-    if (args->micro && !plan_micro(plan, error))
+    if (own->micro && !plan_micro(plan, error))
         return false;
     for (int i = 0; i < plan->sweep_count; i++)
         if (plan->sweeps[i].count < 1)
@@ -194,11 +185,14 @@ typedef struct Micro {
    line. */
 static bool micro_cases_check(const BenchPlan *plan, Error *error)
 {
-    static BenchPlan few;
-    few = *plan;
-    for (int i = 0; i < few.sweep_count; i++)
-        for (int k = 0; strcmp(few.sweeps[i].key, "particles") == 0 && k < few.sweeps[i].count; k++)
+    BenchPlan few = *plan;
+    for (int i = 0; i < few.sweep_count; i++) {
+        assert(few.sweeps[i].key != NULL);
+        if (strcmp(few.sweeps[i].key, "particles") != 0)
+            continue;
+        for (int k = 1; k < few.sweeps[i].count; k++)
             few.sweeps[i].values[k] = few.sweeps[i].values[0];
+    }
     for (size_t i = 0; i < bench_plan_cases(&few); i++) {
         Scene scene;
         if (!bench_plan_case_load(&few, i, false, &scene, error) || !world_can(&scene.world, error))
@@ -239,7 +233,7 @@ static bool within_limits(Micro *micro, size_t index, Scene *scene)
         leave_out(micro, index, error.message);
         return false;
     }
-    const double limit = micro->plan->args->seconds,
+    const double limit = options_of_bench(micro->plan->args)->seconds,
                  expected = 1e-3 * micro->ms_a_particle * particles_of(scene);
     if (expected <= limit)
         return true;
@@ -255,9 +249,9 @@ static void measure_case(Micro *micro, size_t index, const Scene *scene)
     Error error;
     const Args *args = micro->plan->args;
     const MicroSetup setup = {.scene = scene,
-                              .rounds = args->frames,
-                              .seconds = args->seconds,
-                              .from = args->time_given ? args->time : 0};
+                              .rounds = options_of_bench(args)->frames,
+                              .seconds = options_of_bench(args)->seconds,
+                              .from = args_given(args, "--time") ? args->time : 0};
     int found;
     MicroResult *results = &micro->results[micro->count];
     const bool first = micro->ceilings.copies == 0;
@@ -335,7 +329,8 @@ static bool render(const BenchPlan *plan, PointsFigures *figures, Error *error)
                               .draws = true,
                               .width = args->width,
                               .height = args->height,
-                              .frames = args->frames ? args->frames : USUAL_FRAMES,
+                              .frames = options_of_bench(args)->frames ? options_of_bench(args)->frames
+                                                                       : USUAL_FRAMES,
                               .clock = GL_CLOCK_AUTO};
     progress_begin(&progress, stderr, "bench", args->quiet);
     const bool ok = bench_measure(&setup, &progress, 0, 1, &figures->rendering);
@@ -347,8 +342,8 @@ static bool render(const BenchPlan *plan, PointsFigures *figures, Error *error)
 static bool measure(const BenchPlan *plan, Error *error)
 {
     const Args *args = plan->args;
-    static PointsFigures figures;
-    static Reference reference;
+    PointsFigures figures = {0};
+    Reference reference;
     const size_t asked = plan->settings.particles;
     if ((args->json && !json_file_check(args->json, error)) ||
         !reference_load(plan->table->reference, &reference, error) ||
@@ -392,29 +387,30 @@ static bool names_view(const SceneSettings *settings)
 /* Names an option without effect, or NULL. */
 static const char *has_no_place(const Args *args)
 {
-    return args->table                   ? "--table"
-           : args->play                  ? "--play"
-           : args->micro                 ? "--micro"
-           : args->device                ? "--device"
-           : args->sweep_count > 0       ? "--sweep"
-           : args->frames > 0            ? "--frames"
-           : args->clock                 ? "--clock"
-           : args->size_given            ? "--size"
-           : args->seconds_given         ? "--seconds"
-           : names_view(&args->settings) ? "--view"
-                                         : NULL;
+    const BenchOptions *own = options_of_bench(args);
+    return own->table                      ? "--table"
+           : own->play                     ? "--play"
+           : own->micro                    ? "--micro"
+           : args->device                  ? "--device"
+           : args->sweep_count > 0         ? "--sweep"
+           : own->frames > 0               ? "--frames"
+           : own->clock                    ? "--clock"
+           : args_given(args, "--size")    ? "--size"
+           : args_given(args, "--seconds") ? "--seconds"
+           : names_view(&args->settings)   ? "--view"
+                                           : NULL;
 }
 
 /* Reads all scenes before the first run. */
 static bool scenes_check(const BenchPlan *plan, bool *context, Error *error)
 {
-    static Scene scene;
+    Scene scene;
     const Args *args = plan->args;
     *context = false;
     const char *other = has_no_place(args);
     if (other)
         return error_set(error, "slosh bench: --ablate stands alone; leave %s out", other);
-    if (args->time_given && !(args->time > 0))
+    if (args_given(args, "--time") && !(args->time > 0))
         return error_set(error, "slosh bench: --ablate needs a --time of more than 0");
     for (size_t i = 0; i < bench_plan_cases(plan); i++) {
         if (!bench_plan_case_load(plan, i, false, &scene, error) || !world_can(&scene.world, error))
@@ -434,7 +430,7 @@ static bool ablate_all(const BenchPlan *plan, const Headless *context, Ablation 
         Error error = {{0}};
         const AblateSetup setup = {.scene = plan->scenes[*done],
                                    .settings = &plan->settings,
-                                   .time = args->time_given ? args->time : DEFAULT_TIME,
+                                   .time = args_given(args, "--time") ? args->time : DEFAULT_TIME,
                                    .quiet = args->quiet};
         if (!ablate(&setup, one, &error)) {
             fprintf(stderr, "%s\n", error.message);
@@ -465,7 +461,7 @@ static int bench_ablate(const BenchPlan *plan)
                         : error_set(&error, "no memory for the results");
     ok = ok && (!wants_context || (context = headless_create(args->gpu, &error)));
     if (context)
-        fprintf(stderr, "renderer: %s\n", headless_renderer(context));
+        renderer_tell(headless_renderer(context));
     const bool ran = ok && ablate_all(plan, context, ablations, &done);
     ok = ok && (!args->json || done == 0 || ablate_write_json(ablations, done, args->json, &error));
     headless_destroy(context);
@@ -488,7 +484,7 @@ static GlClock clock_of(ClockChoice choice)
 static bool device_check(const Args *args, Error *error)
 {
     Mapping mapping;
-    if (args->device && args->play)
+    if (args->device && options_of_bench(args)->play)
         return error_set(error,
                          "slosh bench: with --play a script shakes the box; leave --device out, or --play");
     return !args->device ||
@@ -527,6 +523,7 @@ static bool measure_one(const BenchPlan *plan, size_t at, Headless *context, Ben
                         Error *error)
 {
     const Args *args = plan->args;
+    const BenchOptions *own = options_of_bench(args);
     const double part = 1 / (double)bench_plan_cases(plan);
     Scene scene;
     Progress progress;
@@ -541,12 +538,12 @@ static bool measure_one(const BenchPlan *plan, size_t at, Headless *context, Ben
         .draws = strcmp(scene.view.kind, "none") != 0,
         .width = args->width,
         .height = args->height,
-        .frames = args->frames  ? args->frames
+        .frames = own->frames   ? own->frames
                   : plan->table ? TABLE_FRAMES
                                 : DEFAULT_FRAMES,
         .seconds = plan->table ? plan->table->seconds : 0,
-        .from = args->time_given ? args->time : 0,
-        .clock = clock_of(args->clock),
+        .from = args_given(args, "--time") ? args->time : 0,
+        .clock = clock_of(own->clock),
         .device = args->device,
         .mapping = args->mapping,
     };
@@ -648,10 +645,10 @@ static int bench(const BenchPlan *plan, bool wants_context, Error *error)
     }
     const bool can_write = !args->json || json_file_check(args->json, error);
     bool ok = can_write &&
-              (!args->output || (gnuplot_check(args->output, error) && output_check(args->output, error))) &&
+              (!args->output || (plot_check(args->output, error) && output_check(args->output, error))) &&
               (!wants_context || (context = headless_create(args->gpu, error)));
     if (context)
-        fprintf(stderr, "renderer: %s\n", headless_renderer(context));
+        renderer_tell(headless_renderer(context));
     ok = ok && measure_all(plan, context, results, &tally, error);
     if (can_write)
         ok = report(plan, results, &tally, ok, error) && ok;
@@ -679,8 +676,8 @@ static int bench_play(const Args *args, Error *error)
                                  .settings = &args->settings,
                                  .width = args->width,
                                  .height = args->height,
-                                 .history_bytes = (size_t)(args->past * 1048576),
-                                 .shake_seconds = args->seconds,
+                                 .history_bytes = (size_t)(PLAY_HISTORY_MIB * 1048576.0),
+                                 .shake_seconds = options_of_bench(args)->seconds,
                                  .quiet = args->quiet};
         code = play(&setup, &figures[done]);
         if (code == 0 && !args->quiet)
@@ -692,22 +689,59 @@ static int bench_play(const Args *args, Error *error)
     return code;
 }
 
-int cmd_bench(const Args *args)
+static int run_command(const Args *args)
 {
+    const BenchOptions *own = options_of_bench(args);
     Error error = {{0}};
     bool wants_context;
-    static BenchPlan plan;
+    BenchPlan plan = {0};
     interrupt_install();
     if (!bench_plan_make(args, &plan, &error) || !device_check(args, &error) ||
-        (!args->micro && !args->ablate && !cases_check(&plan, &wants_context, &error)))
+        (!own->micro && !own->ablate && !cases_check(&plan, &wants_context, &error)))
         return fail(&error, EXIT_USAGE);
-    if (args->ablate)
+    if (own->ablate)
         return bench_ablate(&plan);
-    if (args->micro)
+    if (own->micro)
         return bench_micro(&plan);
     if (plan.table && plan.table->points)
         return bench_points(&plan);
-    if (args->play)
+    if (own->play)
         return bench_play(args, &error);
     return bench(&plan, wants_context, &error);
 }
+
+/* clang-format off */
+static const OptionRow options[] = {
+    ROW_OUTPUT("OUT", .files = files_replaced, .help = "the chart of --table: OUT.svg or OUT.png"),
+    {"--table", "NAME", OPTION_TEXT, OWN(BenchOptions, table), .help = "a published table again, beside its figures", .names = bench_table_choice},
+    ROW_TIME(0, "measure from the first frame at or after that time on (0)"),
+    ROW_FRAMES(BenchOptions),
+    ROW_PICTURE_SIZE,
+    {"--play", NULL, OPTION_FLAG, OWN(BenchOptions, play), .help = "measure the live window, the box shaken by a script"},
+    {"--seconds", "S", OPTION_NUMBER, .initial = 20, .offset = offsetof(BenchOptions, seconds), .max = 1e5, .flags = OPTION_OWN | OPTION_OPEN_LOW,
+     .help = "how long, with --play; with --micro at most, for one count of particles (20)"},
+    {"--micro", NULL, OPTION_FLAG, OWN(BenchOptions, micro),
+     .help = "each pass of a method alone on cpu, at 10000 to 4000000 particles, beside what the machine could do; with --time S at that time too"},
+    {"--ablate", NULL, OPTION_FLAG, OWN(BenchOptions, ablate),
+     .help = "what each term of the scene's model costs, and what its metrics change without it: --time S simulated seconds (2) without each, in turn"},
+    {"--clock", "gl|finish", OPTION_CHOICE, OWN(BenchOptions, clock), .min = CLOCK_CHOICE_GL,
+     .help = "GPU stages by GL timer queries, or by glFinish and the CPU's clock"},
+    {"--sweep", "KEY=A,B,...", OPTION_SWEEP, AT(sweeps),
+     .help = "measure with each value: particles, backend, method, view, threads or any scene key; repeat for a product"},
+    ROWS_SCENE, ROW_VIEW, ROW_PRESET, ROWS_PROCESSOR, ROW_GPU, ROW_SHADERS, ROWS_DEVICE_MOVES, ROW_JSON, ROWS_END
+};
+/* clang-format on */
+
+const Command command_bench = {
+    .name = "bench",
+    .usage = "[SCENE...] [OPTIONS]",
+    .help = "measures how long each stage of a frame takes",
+    .takes = "scene",
+    .takes_max = ARGS_SCENES_MAX,
+    .width = 512,
+    .height = 512,
+    .own_size = sizeof(BenchOptions),
+    .argument_files = files_scene,
+    .options = options,
+    .run = run_command,
+};

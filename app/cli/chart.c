@@ -1,12 +1,8 @@
-#include "app/base/file.h"
-#include "app/base/output.h"
-#include "app/base/program.h"
-#include "app/bench/gnuplot.h"
 #include "app/cli/cli_private.h"
+#include "app/cli/option_rows.h"
 #include "app/lab/error_chart.h"
-#include "app/lab/run_table.h"
 #include "app/lab/view_benchmark.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,48 +11,33 @@ static const double DEFAULT_TIME = 0.5; /* s */
 
 enum { DEFAULT_SIDE = 256 };
 
-/* Rows of the plan in order, with unused rows for references; and all rows of the file. */
-typedef struct ViewPictures {
-    const Args *args;
+/* ---- pictures ---- */
+
+typedef struct ViewState {
     ViewPlan plan;
-    char csv[1024];
-    Headless *context;
     int factor;
     double time;
     int width, height;
-    ViewRows kept, rows;
-    bool made[VIEW_JOBS_MAX];
-    int wanted, there; /* count of pictures without references */
-    World *world;      /* at `time`; NULL: not needed yet */
-    Scene scene;       /* of the world */
+    World *world; /* at `time`; NULL: not needed yet */
+    Scene scene;  /* of the world */
     LinearPicture reference;
-    int reference_of; /* job of the reference; -1: none */
-    bool told;        /* --json has been written, or cannot be */
-} ViewPictures;
+    int reference_of; /* place in the plan + 1; 0: none */
+} ViewState;
 
-static bool name_csv(ViewPictures *gallery, Error *error)
+static bool pictures_plan(ExperimentRun *run, Error *error)
 {
-    const char *output = gallery->args->output;
-    if (!gnuplot_check_name(output, error))
-        return false;
-    if (strlen(output) >= sizeof gallery->csv)
-        return error_set(error, "the name of the chart has more than %zu bytes; name a shorter one",
-                         sizeof gallery->csv - 1);
-    snprintf(gallery->csv, sizeof gallery->csv, "%s", output);
-    memcpy(strrchr(gallery->csv, '.'), ".csv", sizeof ".csv");
-    return true;
-}
-
-static bool gallery_check(ViewPictures *gallery, Error *error)
-{
-    const Args *args = gallery->args;
-    gallery->time = args->time_given ? args->time : DEFAULT_TIME;
-    gallery->width = args->width > 0 ? args->width : DEFAULT_SIDE;
-    gallery->height = args->height > 0 ? args->height : DEFAULT_SIDE;
+    const Args *args = run->args;
+    ViewState *views = run->state;
+    views->time = args_given(args, "--time") ? args->time : DEFAULT_TIME;
+    views->width = args->width > 0 ? args->width : DEFAULT_SIDE;
+    views->height = args->height > 0 ? args->height : DEFAULT_SIDE;
     if (args->sweep_count > 0)
         return error_set(error, "slosh chart: --views has a plan of its own; leave --sweep out, or name one "
                                 "view by --set view.kind=...");
-    return name_csv(gallery, error) && view_plan_make(args, &gallery->plan, error);
+    if (!experiment_name_files(run, error) || !view_plan_make(args, &views->plan, error))
+        return false;
+    run->wanted = views->plan.count;
+    return true;
 }
 
 /* Adds the shaders of --shaders to the key, each with its includes. */
@@ -72,302 +53,224 @@ static uint64_t shaders_key(const char *directory, uint64_t key)
     return key;
 }
 
-/* Makes the rows of the plan; takes figures of kept rows. */
-static bool make_view_rows(ViewPictures *gallery, Error *error)
+static bool picture_prepare(ExperimentRun *run, int i, void *of, Error *error)
 {
-    static Scene scene;
+    Scene scene;
     char more[512];
-    const Args *args = gallery->args;
-    snprintf(more, sizeof more, "%s %.9g %d %d %d %s", SLOSH_VERSION, gallery->time, gallery->width,
-             gallery->height, gallery->factor, headless_renderer(gallery->context));
-    const uint64_t common = shaders_key(args->shaders, run_key_text(RUN_KEY, more));
-    for (int i = 0; i < gallery->plan.count; i++) {
-        const ViewJob *job = &gallery->plan.jobs[i];
-        ViewRow *row = &gallery->rows.row[gallery->rows.count++];
-        *row = (ViewRow){.ms = (double)NAN, .error = (double)NAN, .structure = (double)NAN};
-        snprintf(row->view, sizeof row->view, "%s", job->kind->name);
-        memcpy(row->settings, job->name, sizeof row->settings);
-        row->key = common;
-        if (!view_job_scene(&gallery->plan, job, &scene, error) ||
-            !run_key_scene(&scene, true, &row->key, error))
-            return false;
-        const ViewRow *old = job->reference ? NULL : view_rows_find(&gallery->kept, row->key);
-        gallery->made[i] = old != NULL;
-        gallery->there += old != NULL;
-        gallery->wanted += !job->reference;
-        if (old) { /* the name is from the plan: two jobs may mean the same picture */
-            row->ms = old->ms;
-            row->error = old->error;
-            row->structure = old->structure;
-            memcpy(row->clock, old->clock, sizeof row->clock);
-        }
-    }
-    if (!args->quiet && gallery->there > 0)
-        fprintf(stderr, "%d of %d pictures %s in %s already\n", gallery->there, gallery->wanted,
-                gallery->there == 1 ? "is" : "are", gallery->csv);
+    ViewState *views = run->state;
+    const ViewJob *job = &views->plan.jobs[i];
+    ViewRow *row = of;
+    snprintf(more, sizeof more, "%s %.9g %d %d %d %s", SLOSH_VERSION, views->time, views->width,
+             views->height, views->factor, headless_renderer(run->context));
+    *row = (ViewRow){.ms = (double)NAN, .error = (double)NAN, .structure = (double)NAN};
+    snprintf(row->view, sizeof row->view, "%s", job->kind->name);
+    memcpy(row->settings, job->name, sizeof row->settings);
+    row->key = shaders_key(run->args->shaders, run_key_text(RUN_KEY, more));
+    return view_job_scene(&views->plan, job, &scene, error) && run_key_scene(&scene, true, &row->key, error);
+}
+
+/* The name of the plan stays: two jobs may mean the same picture. */
+static bool picture_take(void *of, const void *older)
+{
+    ViewRow *row = of, name = *row;
+    *row = *(const ViewRow *)older;
+    memcpy(row->settings, name.settings, sizeof row->settings);
     return true;
 }
 
 /* Simulates the state of all pictures. */
-static bool simulate(ViewPictures *gallery, Error *error)
+static bool simulate(ViewState *views, bool quiet, Error *error)
 {
     WorldInfo info;
     Progress progress;
-    if (gallery->world)
+    if (views->world)
         return true;
-    if (!view_job_scene(&gallery->plan, &gallery->plan.jobs[0], &gallery->scene, error) ||
-        !(gallery->world = world_create(&gallery->scene.world, error)))
+    if (!view_job_scene(&views->plan, &views->plan.references[0], &views->scene, error) ||
+        !(views->world = world_create(&views->scene.world, error)))
         return false;
     bool ok = true;
-    progress_begin(&progress, stderr, "simulate", gallery->args->quiet);
-    for (world_info(gallery->world, &info); ok && info.time < gallery->time && !interrupted();
-         world_info(gallery->world, &info)) {
-        ok = world_step(gallery->world, NULL, error);
-        progress_update(&progress, info.time / gallery->time);
+    progress_begin(&progress, stderr, "simulate", quiet);
+    for (world_info(views->world, &info); ok && info.time < views->time && !interrupted();
+         world_info(views->world, &info)) {
+        ok = world_step(views->world, NULL, error);
+        progress_update(&progress, info.time / views->time);
     }
     progress_end(&progress);
     return ok && !interrupted();
 }
 
-/* Draws the reference of a picture: the last reference job before the picture in the plan. */
-static bool need_reference(ViewPictures *gallery, int job, Error *error)
+static bool draw_job(ViewState *views, const ViewJob *job, int factor, bool timed, ViewPicture *out,
+                     Error *error)
 {
-    static Scene scene;
-    ViewPicture out;
-    int at = job;
-    while (!gallery->plan.jobs[at].reference)
-        at--;
-    if (gallery->reference_of == at)
+    Scene scene;
+    return view_job_scene(&views->plan, job, &scene, error) &&
+           view_picture_draw(&scene, views->world, views->width, views->height, factor, timed, out, error);
+}
+
+static bool need_reference(ViewState *views, int reference, Error *error)
+{
+    ViewPicture out = {0};
+    if (views->reference_of == reference + 1)
         return true;
-    linear_picture_free(&gallery->reference);
-    gallery->reference_of = -1;
-    const bool ok = view_job_scene(&gallery->plan, &gallery->plan.jobs[at], &scene, error) &&
-                    view_picture_draw(&scene, gallery->world, gallery->width, gallery->height,
-                                      gallery->factor, false, &out, error);
+    linear_picture_free(&views->reference);
+    const bool ok = draw_job(views, &views->plan.references[reference], views->factor, false, &out, error);
     if (ok)
-        gallery->reference = out.picture;
-    gallery->reference_of = ok ? at : -1;
+        views->reference = out.picture;
+    else
+        linear_picture_free(&out.picture);
+    views->reference_of = ok ? reference + 1 : 0;
     return ok;
 }
 
 /* Draws a picture; a failing picture is reported, and its row has no figures. */
-static bool draw_one(ViewPictures *gallery, int job, Error *error)
+static bool picture_make(ExperimentRun *run, int i, void *of, const ProgressPart *part, Error *error)
 {
-    static Scene scene;
     ViewPicture out = {0};
     Error why = {{0}};
-    ViewRow *row = &gallery->rows.row[job];
-    if (!simulate(gallery, error))
+    ViewState *views = run->state;
+    ViewRow *row = of;
+    (void)part;
+    if (!simulate(views, run->args->quiet, error))
         return false;
-    if (!need_reference(gallery, job, &why) ||
-        !view_job_scene(&gallery->plan, &gallery->plan.jobs[job], &scene, &why) ||
-        !view_picture_draw(&scene, gallery->world, gallery->width, gallery->height, 1, true, &out, &why)) {
+    if (need_reference(views, views->plan.jobs[i].reference, &why) &&
+        draw_job(views, &views->plan.jobs[i], 1, true, &out, &why)) {
+        row->ms = out.ms;
+        row->error = picture_rms(&out.picture, &views->reference);
+        row->structure = picture_structure(&out.picture, &views->reference);
+        memcpy(row->clock, out.clock, sizeof row->clock);
+    } else {
         fprintf(stderr, "%s, %s: %s\n", row->view, row->settings, why.message);
-        linear_picture_free(&out.picture);
-        return true;
     }
-    row->ms = out.ms;
-    row->error = picture_rms(&out.picture, &gallery->reference);
-    row->structure = picture_structure(&out.picture, &gallery->reference);
-    memcpy(row->clock, out.clock, sizeof row->clock);
     linear_picture_free(&out.picture);
-    gallery->there++;
-    view_rows_add(&gallery->kept, row);
-    return view_rows_write(&gallery->kept, gallery->csv, error);
+    return true;
 }
 
-static bool draw_all(ViewPictures *gallery, Error *error)
+static bool pictures_run(ExperimentRun *run, Error *error)
 {
-    Progress progress;
-    bool ok = true;
-    progress_begin(&progress, stderr, "views", gallery->args->quiet);
-    for (int i = 0; ok && i < gallery->plan.count && !interrupted(); i++) {
-        ok = gallery->plan.jobs[i].reference || gallery->made[i] || draw_one(gallery, i, error);
-        progress_update(&progress, (i + 1.0) / gallery->plan.count);
-    }
-    progress_end(&progress);
-    return ok && !interrupted();
-}
-
-/* Removes reference rows, which are not for people. */
-static void drop_references(ViewPictures *gallery)
-{
-    ViewRows *rows = &gallery->rows;
-    int kept = 0;
-    for (int i = 0; i < rows->count; i++)
-        if (!gallery->plan.jobs[i].reference)
-            rows->row[kept++] = rows->row[i];
-    rows->count = kept;
-}
-
-static bool finish_views(ViewPictures *gallery, Error *error)
-{
-    char title[256], note[256], renderer[256];
-    const Args *args = gallery->args;
-    drop_references(gallery);
-    snprintf(title, sizeof title, "%.120s at %g s: pictures of %d x %d", args->scenes[0], gallery->time,
-             gallery->width, gallery->height);
-    snprintf(
-        note, sizeof note,
-        "error: rms of linear light over white, against each view's finest settings, %d x %d supersampled",
-        gallery->factor, gallery->factor);
-    snprintf(renderer, sizeof renderer, "renderer: %.200s", headless_renderer(gallery->context));
-    const ViewWords words = {title, note, renderer};
-    const ViewFacts facts = {args->scenes[0], headless_renderer(gallery->context),
-                             gallery->width,  gallery->height,
-                             gallery->factor, gallery->time};
-    if (!args->quiet)
-        view_rows_print(&gallery->rows, &words, stdout);
-    bool ok = gallery->there > 0 || error_set(error, "no picture could be drawn: no error is known");
-    ok = ok && view_rows_draw(&gallery->rows, &words, args->output, error);
-    Error no_json;
-    gallery->told = true;
-    if (args->json &&
-        !view_rows_write_json(&gallery->rows, &facts, ok ? NULL : error->message, args->json, &no_json)) {
-        *error = ok ? no_json : *error;
+    ViewState *views = run->state;
+    if (!experiment_context(run, error))
         return false;
-    }
-    return ok;
-}
-
-static bool gallery_open(ViewPictures *gallery, Error *error)
-{
-    const Args *args = gallery->args;
-    if (!output_check(args->output, error) || !output_check(gallery->csv, error) ||
-        (args->json && !json_file_check(args->json, error)) || !gnuplot_check(args->output, error) ||
-        !view_rows_read(&gallery->kept, gallery->csv, stderr, error) ||
-        !(gallery->context = headless_create(args->gpu, error)))
-        return false;
-    fprintf(stderr, "renderer: %s\n", headless_renderer(gallery->context));
-    gallery->factor = view_picture_factor(gallery->width, gallery->height);
-    if (gallery->factor < 2)
+    views->factor = view_picture_factor(views->width, views->height);
+    if (views->factor < 2)
         return error_set(error,
                          "slosh chart: a picture of %d x %d is too large to be supersampled here; use a "
                          "smaller --size",
-                         gallery->width, gallery->height);
-    if (gallery->factor < VIEW_PICTURE_FACTOR)
+                         views->width, views->height);
+    if (views->factor < VIEW_PICTURE_FACTOR)
         fprintf(
             stderr,
             "references are supersampled %d x %d in place of %d x %d: a picture of %d x %d allows no more\n",
-            gallery->factor, gallery->factor, VIEW_PICTURE_FACTOR, VIEW_PICTURE_FACTOR, gallery->width,
-            gallery->height);
-    return true;
+            views->factor, views->factor, VIEW_PICTURE_FACTOR, VIEW_PICTURE_FACTOR, views->width,
+            views->height);
+    return experiment_trials(run, error);
 }
 
-/* Writes JSON for a failure or a stop before all figures existed. */
-static void write_views_failure(const ViewPictures *gallery, const Error *error)
+static bool pictures_report(ExperimentRun *run, Error *error)
 {
-    const Args *args = gallery->args;
-    Error no_json;
-    if (args->json && !gallery->told && json_file_check(args->json, &no_json))
-        failure_json_write(failure_json("chart", "scene", args->scenes[0], args->output, error), args->json);
+    char title[256], note[256], renderer[256];
+    ViewState *views = run->state;
+    int drawn = 0;
+    snprintf(title, sizeof title, "%.120s at %g s: pictures of %d x %d", run->args->scenes[0], views->time,
+             views->width, views->height);
+    snprintf(
+        note, sizeof note,
+        "error: rms of linear light over white, against each view's finest settings, %d x %d supersampled",
+        views->factor, views->factor);
+    snprintf(renderer, sizeof renderer, "renderer: %.200s", headless_renderer(run->context));
+    const ViewWords words = {title, note, renderer};
+    run->has_figures = true;
+    if (!run->args->quiet)
+        view_rows_print(&run->rows, &words, stdout);
+    for (int i = 0; i < run->rows.count; i++)
+        drawn += isfinite(view_row(&run->rows, i)->ms);
+    return (drawn > 0 || error_set(error, "no picture could be drawn: no error is known")) &&
+           view_rows_draw(&run->rows, &words, run->output, error);
 }
 
-/* Makes the chart of a scene's pictures; returns the exit code. */
-static int chart_views(const Args *args)
+static json_t *pictures_json(const ExperimentRun *run, const char *failure)
 {
-    static ViewPictures gallery;
-    Error error = {{0}};
-    gallery = (ViewPictures){.args = args, .reference_of = -1};
-    if (!gallery_check(&gallery, &error)) {
-        fprintf(stderr, "%s\n", error.message);
-        return EXIT_USAGE;
-    }
-    const bool ok = gallery_open(&gallery, &error) && make_view_rows(&gallery, &error) &&
-                    draw_all(&gallery, &error) && finish_views(&gallery, &error);
-    linear_picture_free(&gallery.reference);
-    world_destroy(gallery.world);
-    if (interrupted())
-        error_set(&error, "stopped after %d of %d pictures; the same command goes on", gallery.there,
-                  gallery.wanted);
-    if (interrupted() || !ok) {
-        fprintf(stderr, "%s\n", error.message);
-        write_views_failure(&gallery, &error);
-    }
-    headless_destroy(gallery.context);
-    return interrupted() ? EXIT_INTERRUPTED : ok ? 0 : EXIT_FAILED;
+    const ViewState *views = run->state;
+    json_t *runs = json_array();
+    for (int i = 0; i < run->rows.count; i++)
+        json_array_append_new(runs, view_row_json(&run->rows, i));
+    return json_pack("{s:s, s:s, s:[i, i], s:i, s:f, s:o, s:s*}", "views", run->args->scenes[0], "renderer",
+                     headless_renderer(run->context), "size", views->width, views->height, "supersampled",
+                     views->factor, "time", views->time, "runs", runs, "error", failure);
 }
 
-/* Rows of the plan, in order, and all rows of the file, where runs of different settings stay. */
-typedef struct Runs {
-    ChartRows kept, rows;
-    bool made[CHART_JOBS_MAX]; /* made by an older run */
-    bool written;              /* --json is written */
-    int there;                 /* count of the plan's rows with figures */
-} Runs;
-
-/* Makes the rows of the plan; takes figures of kept rows. */
-static bool make_rows(const ChartPlan *plan, Runs *runs, Error *error)
+static void pictures_close(ExperimentRun *run)
 {
-    static Scene scene;
-    ChartRows *rows = &runs->rows;
-    rows->metric_count = plan->scene.metric_count;
-    memcpy(rows->metrics, plan->scene.metrics, sizeof rows->metrics);
-    rows->probe_count = plan->scene.probes.count;
-    for (rows->count = 0; rows->count < plan->count; rows->count++) {
-        const int i = rows->count;
-        if (!chart_prepare(&plan->subject, &plan->jobs[i], &scene, &rows->row[i], NULL, error))
-            return false;
-        const ChartRow *old = chart_rows_find(&runs->kept, rows->row[i].key);
-        runs->made[i] = old && old->outcome.kind != OUTCOME_NONE; /* other failures run again */
-        runs->there += runs->made[i];
-        if (runs->made[i])
-            rows->row[i] = *old;
-    }
-    if (!plan->args->quiet && runs->there > 0)
-        fprintf(stderr, "%d of %d runs %s in %s already\n", runs->there, plan->count,
-                runs->there == 1 ? "is" : "are", plan->csv);
-    return true;
+    ViewState *views = run->state;
+    linear_picture_free(&views->reference);
+    world_destroy(views->world);
 }
 
-/* Shares of the work to do: done before a job, and the job itself. */
-static void shares(const ChartPlan *plan, const Runs *runs, int job, double *done, double *part)
-{
-    double all = 0;
-    *done = *part = 0;
-    for (int i = 0; i < plan->count; i++) {
-        const double seconds = runs->made[i] ? 0 : chart_plan_seconds(plan, i, &runs->kept);
-        all += seconds;
-        *done += i < job ? seconds : 0;
-        *part += i == job ? seconds : 0;
-    }
-    *done /= all;
-    *part /= all;
-}
+static const Experiment view_experiment = {
+    .table = &view_table,
+    .size = sizeof(ViewState),
+    .plan = pictures_plan,
+    .run = pictures_run,
+    .prepare = picture_prepare,
+    .take = picture_take,
+    .make = picture_make,
+    .report = pictures_report,
+    .json = pictures_json,
+    .close = pictures_close,
+};
 
-static bool run_one(const ChartPlan *plan, Runs *runs, int job, Progress *progress, Error *error)
+/* ---- runs ---- */
+
+typedef struct ChartState {
+    ChartPlan plan;
+    ChartRows rows; /* of the run */
+    double floor;   /* spread of the repeats; NaN: unknown */
+    char error_of[256];
+} ChartState;
+
+static bool chart_plan(ExperimentRun *run, Error *error)
 {
-    double done, part;
-    ChartRow *row = &runs->rows.row[job];
-    shares(plan, runs, job, &done, &part);
-    if (!chart_run(&plan->subject, &plan->jobs[job], row, progress, done, part, error))
+    ChartState *chart = run->state;
+    if (run->args->width > 0)
+        return error_set(error, "slosh chart: --size is of the pictures of --views; leave it out");
+    const bool ok = experiment_name_files(run, error) && chart_plan_make(run->args, &chart->plan, error);
+    run->context = chart->plan.context;
+    if (!ok)
         return false;
-    runs->there++;
-    chart_rows_add(&runs->kept, row, &runs->rows);
-    chart_rows_merge(&runs->kept, plan->csv, &runs->rows);
-    return chart_rows_write(&runs->kept, plan->csv, error);
+    chart->rows = chart_rows_of(&run->rows, &chart->plan.scene);
+    run->wanted = chart->plan.count;
+    notes_print(&chart->plan.notes, stderr);
+    if (*chart->plan.note)
+        fprintf(stderr, "%s\n", chart->plan.note);
+    return true;
 }
 
-/* Runs the missing jobs; writes the file after each job. */
-static bool run_all(const ChartPlan *plan, Runs *runs, Error *error)
+static bool chart_prepare_row(ExperimentRun *run, int i, void *row, Error *error)
 {
-    Progress progress;
-    bool ok = true;
-    progress_begin(&progress, stderr, "chart", plan->args->quiet);
-    for (int i = 0; ok && i < plan->count && !interrupted(); i++)
-        ok = runs->made[i] || run_one(plan, runs, i, &progress, error);
-    progress_end(&progress);
-    return ok && !interrupted();
+    Scene scene;
+    ChartState *chart = run->state;
+    return chart_prepare(&chart->plan.subject, &chart->plan.jobs[i], &scene, row, NULL, error);
 }
 
-/* Updates the errors of kept rows; older runs of different settings stay in the file. */
-static void keep_errors(ChartRows *kept, const ChartRows *rows)
+static bool chart_take(void *row, const void *older)
 {
-    for (int i = 0; i < kept->count; i++) {
-        const ChartRow *row = chart_rows_find(rows, kept->row[i].key);
-        if (row)
-            kept->row[i].error = row->error;
-    }
+    const ChartRow *from = older;
+    if (from->outcome.kind == OUTCOME_NONE) /* other failures run again */
+        return false;
+    memcpy(row, older, sizeof(ChartRow));
+    return true;
+}
+
+static bool chart_make(ExperimentRun *run, int i, void *row, const ProgressPart *part, Error *error)
+{
+    ChartState *chart = run->state;
+    return (!chart->plan.wants_context || experiment_context(run, error)) &&
+           chart_run(&chart->plan.subject, &chart->plan.jobs[i], row, part, error);
+}
+
+static double chart_seconds(const ExperimentRun *run, int i)
+{
+    const ChartState *chart = run->state;
+    return chart_plan_seconds(&chart->plan, i, &run->file);
 }
 
 /* Checks that the chart has at least one error value. */
@@ -380,103 +283,86 @@ static bool check_rows(const ChartPlan *plan, const ChartRows *rows, Error *erro
     if (!plan->subject.of && !reference)
         return error_set(error, "the finest run, which all are compared with, broke: no error is known; use "
                                 "a smaller step or a larger spacing");
-    for (int i = 0; i < rows->count; i++)
-        known += rows->row[i].role == CHART_POINT && isfinite(rows->row[i].error);
+    for (int i = 0; i < rows->trials->count; i++)
+        known += chart_row(rows, i)->role == CHART_POINT && isfinite(chart_row(rows, i)->error);
     return known > 0 || error_set(error, "every run broke: no error is known; use a smaller step");
 }
 
-static bool finish(const ChartPlan *plan, Runs *runs, Error *error)
+static bool chart_report(ExperimentRun *run, Error *error)
 {
     char title[256], name[256 + sizeof "error: "];
-    const Args *args = plan->args;
-    const Case *of = plan->subject.of;
-    ChartRows *rows = &runs->rows;
-    const double floor = chart_rows_compare(rows);
-    keep_errors(&runs->kept, rows);
-    if (!args->quiet)
-        chart_print(rows, floor, stdout);
-    snprintf(title, sizeof title, "%.120s%s", of ? of->help : args->scenes[0],
+    ChartState *chart = run->state;
+    const Case *of = chart->plan.subject.of;
+    ChartRows *rows = &chart->rows;
+    chart->floor = chart_rows_compare(rows);
+    for (int i = 0; i < rows->trials->count; i++) { /* kept rows get today's errors */
+        ChartRow *kept = trials_find(&run->file, chart_row(rows, i)->key);
+        if (kept)
+            kept->error = chart_row(rows, i)->error;
+    }
+    if (!run->args->quiet)
+        chart_print(rows, chart->floor, stdout);
+    snprintf(title, sizeof title, "%.120s%s", of ? of->help : run->args->scenes[0],
              of ? "" : ": the finest run is the reference");
-    chart_error_name(&plan->subject, &plan->scene, name + snprintf(name, sizeof name, "error: "));
-    const ChartWords words = {title, name, plan->note};
-    chart_rows_merge(&runs->kept, plan->csv, rows);
-    const bool drawn = chart_rows_write(&runs->kept, plan->csv, error) &&
-                       chart_draw(rows, &words, floor, args->output, error) && check_rows(plan, rows, error);
-    if (!args->json)
-        return drawn;
-    Error no_json;
-    runs->written = true;
-    if (chart_write_json(rows, args->scenes[0], name + strlen("error: "), floor,
-                         drawn ? NULL : error->message, args->json, &no_json))
-        return drawn;
-    *error = drawn ? no_json : *error;
-    return false;
+    chart_error_name(&chart->plan.subject, &chart->plan.scene, chart->error_of);
+    snprintf(name, sizeof name, "error: %s", chart->error_of);
+    const ChartWords words = {title, name, chart->plan.note};
+    run->has_figures = true;
+    return trials_keep(&run->file, run->csv, rows->trials, error) &&
+           chart_draw(rows, &words, chart->floor, run->output, error) &&
+           check_rows(&chart->plan, rows, error);
 }
 
-/* Writes JSON for a failure before all figures existed. */
-static void write_failure(const ChartPlan *plan, const Runs *runs, const Error *error)
+static json_t *chart_figures(const ExperimentRun *run, const char *failure)
 {
-    const Args *args = plan->args;
-    Error no_json;
-    if (args->json && !runs->written && json_file_check(args->json, &no_json))
-        failure_json_write(failure_json("chart", "scene", args->scenes[0], args->output, error), args->json);
+    const ChartState *chart = run->state;
+    return chart_json(&chart->rows, run->args->scenes[0], chart->error_of, chart->floor, failure);
 }
 
-static bool check_outputs(const ChartPlan *plan, ChartRows *kept, Error *error)
+static const Experiment chart_experiment = {
+    .table = &chart_table,
+    .size = sizeof(ChartState),
+    .plan = chart_plan,
+    .prepare = chart_prepare_row,
+    .take = chart_take,
+    .make = chart_make,
+    .seconds = chart_seconds,
+    .report = chart_report,
+    .json = chart_figures,
+};
+
+typedef struct ChartOptions {
+    bool views; /* pictures instead of runs */
+} ChartOptions;
+
+static int run_command(const Args *args)
 {
-    const Args *args = plan->args;
-    return gnuplot_check(args->output, error) && output_check(args->output, error) &&
-           output_check(plan->csv, error) && (!args->json || json_file_check(args->json, error)) &&
-           chart_rows_read(kept, plan->csv, stderr, error);
+    const ChartOptions *own = args->own;
+    return experiment_run(own->views ? &view_experiment : &chart_experiment, args);
 }
 
-/* Makes a context if a missing run is on a GPU. */
-static bool make_context(ChartPlan *plan, const Runs *runs, Error *error)
-{
-    if (!plan->wants_context || runs->there == plan->count)
-        return true;
-    if (!plan->context && !(plan->context = headless_create(plan->args->gpu, error)))
-        return false;
-    fprintf(stderr, "renderer: %s\n", headless_renderer(plan->context));
-    return true;
-}
+/* clang-format off */
+static const OptionRow options[] = {
+    ROW_OUTPUT("OUT", .files = files_chart, .help = "the chart, OUT.svg or OUT.png; its figures in OUT.csv, which a later run goes on with"),
+    ROW_TIME(0, "simulated seconds of a scene (2; of --views 0.5); a case has its own"),
+    {"--views", NULL, OPTION_FLAG, OWN(ChartOptions, views), .help = "instead: of each view and each of its settings the time of a picture against its error, at --time; --set view.kind=NAME: of that view"},
+    {"--sweep", "KEY=A,B,...", OPTION_SWEEP, AT(sweeps), .help = "method=... or backend=...: those, in place of all methods, of the scene's backend and cpu, and of those on a GPU where there is one; particles.spacing=...: those, in place of 2, 1.5 and 1 of the scene's; any other scene key: a series each value; repeat for a product"},
+    ROW_SIZE("size of a picture of --views in pixels (256x256)"),
+    ROWS_SCENE, ROWS_PROCESSOR, ROW_GPU, ROW_SHADERS, ROW_DEVICE_REFUSED("what is compared moves as the scene says, and no other way"),
+    ROW_JSON, ROWS_END
+};
+/* clang-format on */
 
-static int chart(ChartPlan *plan, Error *error)
-{
-    static Runs runs;
-    notes_print(&plan->notes, stderr);
-    if (*plan->note)
-        fprintf(stderr, "%s\n", plan->note);
-    const bool ok = check_outputs(plan, &runs.kept, error) && make_rows(plan, &runs, error) &&
-                    make_context(plan, &runs, error) && run_all(plan, &runs, error) &&
-                    finish(plan, &runs, error);
-    if (interrupted()) {
-        fprintf(stderr, "stopped after %d of %d runs; the same command goes on\n", runs.there, plan->count);
-        return EXIT_INTERRUPTED;
-    }
-    if (ok)
-        return 0;
-    fprintf(stderr, "%s\n", error->message);
-    write_failure(plan, &runs, error);
-    return EXIT_FAILED;
-}
-
-int cmd_chart(const Args *args)
-{
-    static ChartPlan plan;
-    Error error = {{0}};
-    int code = EXIT_USAGE;
-    interrupt_install();
-    if (args->views)
-        return chart_views(args);
-    if (args->width > 0) {
-        fprintf(stderr, "slosh chart: --size is of the pictures of --views; leave it out\n");
-        return EXIT_USAGE;
-    }
-    if (chart_plan_make(args, &plan, &error))
-        code = chart(&plan, &error);
-    else
-        fprintf(stderr, "%s\n", error.message);
-    chart_plan_end(&plan);
-    return code;
-}
+const Command command_chart = {
+    .name = "chart",
+    .usage = "SCENE|CASE -o OUT.svg|.png [OPTIONS]",
+    .help = "speed against accuracy over methods, steps and resolutions",
+    .takes = "scene or case",
+    .takes_min = 1,
+    .takes_max = 1,
+    .output = "OUT.svg or OUT.png",
+    .own_size = sizeof(ChartOptions),
+    .argument_files = files_scene,
+    .options = options,
+    .run = run_command,
+};

@@ -1,12 +1,24 @@
-#include "app/input/device/devices.h"
 #include "app/base/file.h"
 #include "app/base/program.h"
 #include "app/cli/cli_private.h"
-#include "app/input/mapping.h"
+#include "app/cli/option_rows.h"
+#include "app/input/device/device.h"
+#include "app/input/input.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+typedef struct DevicesOptions {
+    bool watch;                /* live values */
+    const char *record;        /* FILE for raw reports, or NULL */
+    const char *write_mapping; /* FILE, or NULL */
+} DevicesOptions;
+
+static const DevicesOptions *own(const Args *args)
+{
+    return args->own;
+}
 
 static int fail(int code, const Error *error)
 {
@@ -68,7 +80,7 @@ static json_t *json_found(const DeviceListing *found)
 /* Lists the plugged in devices. */
 static int list_found(const Args *args, Error *error)
 {
-    static DeviceListing found[DEVICE_LIST_MAX];
+    DeviceListing found[DEVICE_LIST_MAX];
     json_t *devices = json_array();
     const int count = device_list(&hid_port_hidapi, found);
     for (int i = 0; i < count; i++) {
@@ -144,19 +156,19 @@ static json_t *json_watched(const DevicesWatch *watch)
 
 static int watch_devices(const Args *args, Error *error)
 {
-    static DevicesWatch watch;
+    DevicesWatch watch;
     if (args->device && !devices_check(args->device, error))
         return fail(EXIT_USAGE, error);
     if (args->json && !json_file_check(args->json, error))
         return fail(EXIT_FAILED, error);
     watch = (DevicesWatch){.source = args->device,
-                           .out = args->watch && !args->quiet ? stdout : NULL,
-                           .messages = args->quiet   ? NULL
-                                       : args->watch ? stdout
-                                                     : stderr,
+                           .out = own(args)->watch && !args->quiet ? stdout : NULL,
+                           .messages = args->quiet        ? NULL
+                                       : own(args)->watch ? stdout
+                                                          : stderr,
                            .bars = isatty(STDOUT_FILENO)};
-    watch.record = args->record ? report_log_create(args->record, error) : NULL;
-    if (args->record && !watch.record)
+    watch.record = own(args)->record ? report_log_create(own(args)->record, error) : NULL;
+    if (own(args)->record && !watch.record)
         return fail(EXIT_FAILED, error);
     if (!args->quiet && !args->device)
         fprintf(stderr, "listening to motion devices; Ctrl-C ends it\n");
@@ -175,7 +187,7 @@ static int watch_devices(const Args *args, Error *error)
 static int show_mapping(const Args *args, Error *error)
 {
     Mapping mapping;
-    if (args->watch || args->record || args->device || args->json) {
+    if (own(args)->watch || own(args)->record || args->device || args->json) {
         error_set(error, "slosh devices: --mapping and --write-mapping look at no device; leave --watch, "
                          "--record, --device and --json out");
         return fail(EXIT_USAGE, error);
@@ -184,19 +196,40 @@ static int show_mapping(const Args *args, Error *error)
         return fail(EXIT_USAGE, error);
     if (args->mapping && !args->quiet)
         mapping_explain(&mapping, stdout);
-    if (args->write_mapping && !mapping_write_new(&mapping, args->write_mapping, error))
+    if (own(args)->write_mapping && !mapping_write_new(&mapping, own(args)->write_mapping, error))
         return fail(EXIT_FAILED, error);
     return 0;
 }
 
-int cmd_devices(const Args *args)
+static int run_command(const Args *args)
 {
     Error error = {{0}};
-    if (args->mapping || args->write_mapping)
+    if (args->mapping || own(args)->write_mapping)
         return show_mapping(args, &error);
-    if (args->watch || args->record) {
+    if (own(args)->watch || own(args)->record) {
         interrupt_install();
         return watch_devices(args, &error);
     }
     return args->device ? list_recorded(args, &error) : list_found(args, &error);
 }
+
+/* clang-format off */
+static const OptionRow options[] = {
+    {"--record", "FILE", OPTION_TEXT, OWN(DevicesOptions, record), .files = files_new, .help = "write all raw reports there, with their times, for --device file:FILE; until Ctrl-C"},
+    ROW_DEVICE("a recording of motion devices in place of those that are plugged in"),
+    ROW_MAPPING(.help = "check such a file, and say in words what devices do by it"),
+    {"--write-mapping", "FILE", OPTION_TEXT, OWN(DevicesOptions, write_mapping), .files = files_new, .help = "write what devices do into a new file, to be changed"},
+    {"--watch", NULL, OPTION_FLAG, OWN(DevicesOptions, watch), .help = "show what they say, live, until Ctrl-C or the end of the recording"},
+    ROW_JSON, ROWS_END
+};
+/* clang-format on */
+
+const Command command_devices = {
+    .name = "devices",
+    .usage = "[--watch] [--record FILE] [OPTIONS]",
+    .help = "motion devices: which there are, what they say, and how to open them",
+    .takes = "scene",
+    .own_size = sizeof(DevicesOptions),
+    .options = options,
+    .run = run_command,
+};

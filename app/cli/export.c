@@ -2,53 +2,12 @@
 #include "app/base/file.h"
 #include "app/base/program.h"
 #include "app/cli/cli_private.h"
+#include "app/cli/option_rows.h"
 #include "app/run/playback/playback.h"
 #include "slosh/world.h"
 
 #include <math.h>
 #include <stdio.h>
-
-bool export_choose(const Args *args, SnapshotReader *reader, size_t *index, Error *error)
-{
-    const size_t last = snapshot_count_steps(reader) - 1;
-    /* allows for rounding of times */
-    const double least = args->time - 1e-9 * fmax(args->time, 1);
-    double time = -INFINITY;
-    *index = args->time_given ? 0 : last;
-    if (!args->time_given)
-        return true;
-    for (; *index <= last; ++*index)
-        if (!snapshot_read_time(reader, *index, &time, error))
-            return false;
-        else if (time >= least)
-            return true;
-    return error_set(error, "%s: ends at %.9g s, before --time %.9g", args->scenes[0], time, args->time);
-}
-
-static void tell_gap(const SnapshotReader *reader, const char *path)
-{
-    char words[256];
-    if (snapshot_gap(reader, words) && snapshot_count_steps(reader) > 0)
-        fprintf(stderr, "%s: warning: %s; only the %zu before it can be exported\n", path, words,
-                snapshot_count_steps(reader));
-}
-
-static bool no_snapshot(const SnapshotReader *reader, const char *path, Error *error)
-{
-    char words[256];
-    if (snapshot_gap(reader, words))
-        return error_set(error, "%s: %s; give the steps names from Step#0 on", path, words);
-    return error_set(error, "%s: has no whole snapshot; make some with slosh run", path);
-}
-
-bool export_open(const Args *args, SnapshotReader **reader, Error *error)
-{
-    *reader = snapshot_open(args->scenes[0], error);
-    if (!*reader)
-        return false;
-    tell_gap(*reader, args->scenes[0]);
-    return snapshot_count_steps(*reader) > 0 || no_snapshot(*reader, args->scenes[0], error);
-}
 
 static int fail(int code, const Error *error)
 {
@@ -129,8 +88,8 @@ static bool find_colors(Export *export, size_t index, const Args *args, Error *e
                                      [COLOR_CHOICE_SPEED] = SCALAR_SPEED,
                                      [COLOR_CHOICE_DENSITY] = SCALAR_DENSITY,
                                      [COLOR_CHOICE_PRESSURE] = SCALAR_PRESSURE};
-    const bool series = export_is_series(export->kind);
-    return export_colors(export, scalars[args->color_by], series ? 0 : index,
+    const bool series = export->format->each != NULL;
+    return export_colors(export, scalars[options_of_export(args)->color_by], series ? 0 : index,
                          series ? snapshot_count_steps(export->reader) : 1, error);
 }
 
@@ -143,8 +102,8 @@ static int run(Export *export, size_t index, const Args *args, Error *error)
     if (!find_colors(export, index, args, error))
         return fail_run(args, error);
     progress_begin(&progress, stderr, "export", args->quiet);
-    const bool done = export_is_series(export->kind) ? export_series(export, &progress, error)
-                                                     : export_one(export, index, error);
+    const bool done =
+        export->format->each ? export_series(export, &progress, error) : export_one(export, index, error);
     progress_end(&progress);
     if (!done)
         return fail_run(args, error);
@@ -156,12 +115,13 @@ static int run(Export *export, size_t index, const Args *args, Error *error)
 
 static bool understand_surface(Export *export, SurfaceDef *surface, const Args *args, Error *error)
 {
-    if (!args->surface && (args->level > 0 || args->cell > 0))
-        return error_set(error, "%s is of a surface; add --surface", args->level > 0 ? "--level" : "--cell");
-    if (!args->surface)
+    const ExportOptions *own = options_of_export(args);
+    if (!own->surface && (own->level > 0 || own->cell > 0))
+        return error_set(error, "%s is of a surface; add --surface", own->level > 0 ? "--level" : "--cell");
+    if (!own->surface)
         return true;
     *surface =
-        (SurfaceDef){.level = args->level, .cell = args->cell > 0 ? args->cell : 0.5, .each = args->fluids};
+        (SurfaceDef){.level = own->level, .cell = own->cell > 0 ? own->cell : 0.5, .each = own->fluids};
     export->surface = surface;
     return snapshot_read_scene(export->reader, &export->scene, error) &&
            surface_check(surface, &export->scene, error);
@@ -189,13 +149,14 @@ static void name_fluids(Export *export, const WorldDef *world)
 
 static bool understand_parts(Export *export, ExportSolids *solids, const Args *args, Error *error)
 {
+    const ExportOptions *own = options_of_export(args);
     Scene scene;
-    if (!args->solids && !args->fluids)
+    if (!own->solids && !own->fluids)
         return true;
     if (!read_scene(export, args, &scene, error))
         return false;
     name_fluids(export, &scene.world);
-    if (!args->solids)
+    if (!own->solids)
         return true;
     if (scene.world.solid_count == 0)
         return error_set(error, "%s: has no solids; export it without --solids", args->scenes[0]);
@@ -205,10 +166,11 @@ static bool understand_parts(Export *export, ExportSolids *solids, const Args *a
 
 static bool check_parts(const Export *export, const Args *args, Error *error)
 {
-    const char *option = args->solids ? "--solids" : args->fluids ? "--fluids" : NULL;
-    if (args->fluids && !args->surface)
+    const ExportOptions *own = options_of_export(args);
+    const char *option = own->solids ? "--solids" : own->fluids ? "--fluids" : NULL;
+    if (own->fluids && !own->surface)
         return error_set(error, "--fluids is of a surface; add --surface");
-    return !option || export->kind == EXPORT_PVD || export_is_obj(export->kind) ||
+    return !option || export->format->has_parts || (export->format->holds & EXPORT_MESHES) != 0 ||
            error_set(error, "%s has room for one mesh; for %s name a FILE.pvd, or with --surface a FILE.obj",
                      args->output, option);
 }
@@ -217,36 +179,48 @@ static bool check_parts(const Export *export, const Args *args, Error *error)
 static bool understand(Export *export, SurfaceDef *surface, ExportSolids *solids, size_t *index,
                        const Args *args, Error *error)
 {
-    if (!export_needs_slice(args, error) || !export_kind(args->output, &export->kind, error))
+    const ExportOptions *own = options_of_export(args);
+    if (!export_needs_slice(args, error) ||
+        !(export->format = export_format_find(args->output, EXPORT_SNAPSHOT, error)))
         return false;
-    if (export_is_series(export->kind) && args->time_given)
+    if (export->format->each && args_given(args, "--time"))
         return error_set(error,
                          "--time makes no sense for all snapshots, %s; name a FILE.vtp, FILE.ply or FILE.obj",
                          args->output);
-    if (args->color_by != COLOR_CHOICE_AUTO && !export_is_colored(export->kind))
+    if (own->color_by != COLOR_CHOICE_AUTO && !export->format->colored)
         return error_set(
             error, "--color-by is of a .ply or a .obj; a .vtp has every scalar, and ParaView colours by any");
-    if (export_is_obj(export->kind) && !args->surface)
+    if ((export->format->holds & EXPORT_PARTICLES) == 0 && !own->surface)
         return error_set(error, "a .obj holds meshes, no particles: add --surface, or write %s as a .ply",
                          args->output);
     if (!check_parts(export, args, error) || !export_open(args, &export->reader, error))
         return false;
-    export->flaws = snapshot_flaws(export->reader, args->surface);
+    export->flaws = snapshot_flaws(export->reader, own->surface);
     return understand_surface(export, surface, args, error) &&
            understand_parts(export, solids, args, error) && export_choose(args, export->reader, index, error);
 }
 
-int cmd_export(const Args *args)
+/* A series has a folder for its files. */
+static void files_export(CommandFiles *files, const OptionRow *row, const char *output)
 {
-    Export export = {.path = args->output, .frame = args->frame};
+    const ExportFormat *format = export_format_find(output, ~0U, NULL);
+    files_replaced(files, row, output);
+    if (format && format->each)
+        command_files_add_beside(files, "the folder of -o", output, strlen(format->extension) + 1, "", "*");
+}
+
+static int run_command(const Args *args)
+{
+    const ExportOptions *own = options_of_export(args);
+    Export export = {.path = args->output, .frame = own->frame};
     SurfaceDef surface = {0};
     ExportSolids solids = {0};
     Error error = {{0}};
     size_t index = 0;
     interrupt_install();
-    if (args->slice)
+    if (own->slice)
         return export_slice(args);
-    if (args->trails)
+    if (own->trails)
         return export_trails(args);
     const int code = understand(&export, &surface, &solids, &index, args, &error)
                          ? run(&export, index, args, &error)
@@ -255,3 +229,50 @@ int cmd_export(const Args *args)
     snapshot_reader_close(export.reader);
     return code;
 }
+
+/* Gives "box|world". */
+#define X(NAME, name) "|" name
+#define FRAMES        (&("" SNAPSHOT_FRAMES(X))[1])
+
+/* clang-format off */
+static const OptionRow options[] = {
+    ROW_OUTPUT("OUT", .files = files_export, .help = "the file or folder to write"),
+    ROW_TIME(0, "the one snapshot at that time, or the first after it (the last)"),
+    {"--frame", FRAMES, OPTION_CHOICE, OWN(ExportOptions, frame), .min = FRAME_BOX, .help = "whose positions and velocities are written (box)"},
+    {"--surface", NULL, OPTION_FLAG, OWN(ExportOptions, surface), .help = "the fluid's surface as a mesh instead of the particles"},
+    {"--fluids", NULL, OPTION_FLAG, OWN(ExportOptions, fluids), .help = "with --surface: a mesh of each fluid with a smooth border between them, as blocks of a .pvd or objects of a .obj"},
+    {"--solids", NULL, OPTION_FLAG, OWN(ExportOptions, solids), .help = "beside them each solid as a mesh of its own that moves with it: a block of a .pvd, or with --surface an object of a .obj"},
+    {"--level", "F", OPTION_NUMBER, .offset = offsetof(ExportOptions, level), .max = 0.99, .flags = OPTION_OWN | OPTION_OPEN_LOW,
+     .help = "level of the field at the surface (the level that encloses the fluid's volume: about 0.5)"},
+    {"--cell", "SPACINGS", OPTION_NUMBER, OWN(ExportOptions, cell), .min = 0.05, .max = 4, .help = "side of the cells of the surface (0.5)"},
+    {"--color-by", "fluid|speed|density|pressure", OPTION_CHOICE, OWN(ExportOptions, color_by), .min = COLOR_CHOICE_FLUID,
+     .help = "colours of a .ply or a .obj: the fluids' own, or a colormap from the least to the greatest value (fluid)"},
+    {"--slice", "{point: [X, Y, Z], normal: [X, Y, Z]}", OPTION_TEXT, OWN(ExportOptions, slice),
+     .help = "a scalar on that plane, in the box's frame, as OUT.vti or OUT.csv; m"},
+    {"--trails", "{stride: N, length: S, ...}", OPTION_TEXT, OWN(ExportOptions, trails),
+     .help = "the paths of particles up to that time, as OUT.vtp: keys stride, ids, length, every, region_min, region_max, plane_point, plane_normal, as of the overlay trails; {}: of every 20th from the first step on"},
+    {"--scalar", "NAME", OPTION_TEXT, OWN(ExportOptions, scalar), .help = "scalar of the slice (pressure) or of the trails (speed)", .names = export_scalar_choice},
+    {"--kernel", "NAME", OPTION_TEXT, OWN(ExportOptions, kernel), .help = "kernel of the slice (the kernel of the file's method)", .names = export_kernel_choice},
+    {"--raw", NULL, OPTION_FLAG, OWN(ExportOptions, raw), .help = "the slice as sums of V W s, without the division by the sums of V W"},
+    ROW_SIZE("samples of the slice along and up"),
+    ROW_DEVICE_REFUSED("nothing is simulated; slosh run takes it"),
+    ROW_JSON, ROWS_END
+};
+/* clang-format on */
+#undef X
+
+const Command command_export = {
+    .name = "export",
+    .usage = "IN.h5part -o OUT.pvd|.vtp|.ply|.obj|.csv|.vti ...",
+    .help = "writes snapshots in the formats of other programs",
+    .takes = "snapshot file",
+    .takes_min = 1,
+    .takes_max = 1,
+    .output = "OUT.pvd, OUT.vtp, OUT.ply, OUT.obj, or of a slice OUT.csv, OUT.vti or OUT.pvd",
+    .width = 256,
+    .height = 192,
+    .own_size = sizeof(ExportOptions),
+    .argument_files = files_snapshots,
+    .options = options,
+    .run = run_command,
+};

@@ -1,22 +1,14 @@
 #include "app/base/file.h"
-#include "app/base/output.h"
 #include "app/base/program.h"
 #include "app/cli/cli_private.h"
 #include "app/files/export.h"
 #include "app/files/snapshot.h"
 #include "app/run/offscreen.h"
-#include "render/particles/plane.h"
+#include "render/particles/particles.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
-
-typedef enum SliceForm { SLICE_CSV, SLICE_VTI, SLICE_PVD } SliceForm;
-
-/* By the suffix of the output; .pvd is a series of all snapshots, each a .vti. */
-static const char *const forms[] = {[SLICE_CSV] = ".csv", [SLICE_VTI] = ".vti", [SLICE_PVD] = ".pvd"};
 
 /* A slice export. */
 typedef struct SliceExport {
@@ -26,7 +18,7 @@ typedef struct SliceExport {
     SnapshotFlaws flaws;
     SliceTableDef wanted;
     size_t index; /* of the snapshot */
-    SliceForm form;
+    const ExportFormat *format;
     SliceMaker maker;
     SliceTable table; /* of the last slice */
     size_t slices;    /* count of written slices */
@@ -34,23 +26,19 @@ typedef struct SliceExport {
     bool interrupted; /* by a signal, before the last slice */
 } SliceExport;
 
-static bool ends_in(const char *path, const char *extension)
-{
-    const size_t length = strlen(path), end = strlen(extension);
-    return length > end && strcasecmp(path + length - end, extension) == 0;
-}
-
 bool export_needs_slice(const Args *args, Error *error)
 {
-    const char *option = args->raw          ? "--raw"
-                         : args->kernel     ? "--kernel"
-                         : args->scalar     ? "--scalar"
-                         : args->size_given ? "--size"
-                                            : NULL;
+    const ExportOptions *own = options_of_export(args);
+    const char *option = own->raw                     ? "--raw"
+                         : own->kernel                ? "--kernel"
+                         : own->scalar                ? "--scalar"
+                         : args_given(args, "--size") ? "--size"
+                                                      : NULL;
     if (option)
         return error_set(error, "%s is of a slice%s; add --slice \"{point: [0, 0, 0], normal: [0, 0, 1]}\"",
-                         option, args->scalar && strcmp(option, "--scalar") == 0 ? " or of trails" : "");
-    if (!ends_in(args->output, ".vti") && !ends_in(args->output, ".csv"))
+                         option, own->scalar && strcmp(option, "--scalar") == 0 ? " or of trails" : "");
+    if (export_format_find(args->output, EXPORT_SNAPSHOT, NULL) ||
+        !export_format_find(args->output, EXPORT_SLICE, NULL))
         return true;
     return error_set(error, "%s is of a slice; add --slice \"{point: [0, 0, 0], normal: [0, 0, 1]}\"",
                      args->output);
@@ -107,23 +95,24 @@ static bool find_kernel(const char *name, int *kernel, Error *error)
 static bool choose_kernel(SliceExport *export, Error *error)
 {
     char own[NAME_SIZE];
-    if (export->args->kernel)
-        return find_kernel(export->args->kernel, &export->wanted.kernel, error);
+    if (options_of_export(export->args)->kernel)
+        return find_kernel(options_of_export(export->args)->kernel, &export->wanted.kernel, error);
     export->wanted.kernel = snapshot_kernel(export->reader, own) ? plane_kernel_named(own) : 1;
     return true;
 }
 
 static bool refuse_others(const Args *args, Error *error)
 {
-    const char *option = args->surface                         ? "--surface"
-                         : args->solids                        ? "--solids"
-                         : args->fluids                        ? "--fluids"
-                         : args->trails                        ? "--trails"
-                         : args->frame != FRAME_BOX            ? "--frame world"
-                         : args->color_by != COLOR_CHOICE_AUTO ? "--color-by"
-                         : args->level > 0                     ? "--level"
-                         : args->cell > 0                      ? "--cell"
-                                                               : NULL;
+    const ExportOptions *own = options_of_export(args);
+    const char *option = own->surface                         ? "--surface"
+                         : own->solids                        ? "--solids"
+                         : own->fluids                        ? "--fluids"
+                         : own->trails                        ? "--trails"
+                         : own->frame != FRAME_BOX            ? "--frame world"
+                         : own->color_by != COLOR_CHOICE_AUTO ? "--color-by"
+                         : own->level > 0                     ? "--level"
+                         : own->cell > 0                      ? "--cell"
+                                                              : NULL;
     return !option ||
            error_set(error, "%s makes no sense with --slice, which is of numbers in the frame of the box",
                      option);
@@ -150,39 +139,25 @@ bool export_has_scalar(const Args *args, SnapshotReader *reader, size_t index, S
 static bool understand(SliceExport *export, Error *error)
 {
     const Args *args = export->args;
+    const ExportOptions *own = options_of_export(args);
     export->wanted =
-        (SliceTableDef){.normal = {0, 0, 1}, .samples = {args->width, args->height}, .raw = args->raw};
-    while (export->form <= SLICE_PVD && !ends_in(args->output, forms[export->form]))
-        export->form++;
-    if (export->form > SLICE_PVD)
-        return error_set(error, "cannot tell the format of a slice from '%s'; use .vti, .csv or .pvd",
-                         args->output);
-    if (export->form == SLICE_PVD && args->time_given)
+        (SliceTableDef){.normal = {0, 0, 1}, .samples = {args->width, args->height}, .raw = own->raw};
+    export->format = export_format_find(args->output, EXPORT_SLICE, error);
+    if (!export->format)
+        return false;
+    if (export->format->each && args_given(args, "--time"))
         return error_set(error, "--time makes no sense for all snapshots, %s; name a FILE.vti or a FILE.csv",
                          args->output);
-    return refuse_others(args, error) && slice_table_def_read(&export->wanted, args->slice, error) &&
-           export_scalar(args->scalar ? args->scalar : "pressure", &export->wanted.scalar, error) &&
+    return refuse_others(args, error) && slice_table_def_read(&export->wanted, own->slice, error) &&
+           export_scalar(own->scalar ? own->scalar : "pressure", &export->wanted.scalar, error) &&
            export_open(args, &export->reader, error) &&
            snapshot_read_scene(export->reader, &export->scene, error) && choose_kernel(export, error) &&
            export_choose(args, export->reader, &export->index, error) &&
-           export_has_scalar(args, export->reader, export->form == SLICE_PVD ? 0 : export->index,
+           export_has_scalar(args, export->reader, export->format->each ? 0 : export->index,
                              export->wanted.scalar, error);
 }
 
 /* ---- files ---- */
-
-static bool write_table(const SliceExport *export, const char *name, Error *error)
-{
-    FILE *file = fopen(name, "wb");
-    bool written =
-        file && (export->form == SLICE_CSV ? slice_table_csv : slice_table_vti)(file, &export->table);
-    int reason = errno;
-    if (file && fclose(file) != 0) {
-        reason = written ? errno : reason;
-        written = false;
-    }
-    return written || error_set(error, "%s: cannot be written: %s", export->args->output, strerror(reason));
-}
 
 static bool make_table(SliceExport *export, size_t index, Error *error)
 {
@@ -206,9 +181,12 @@ static size_t samples_of(const SliceExport *export)
 static bool write_slice(void *user, size_t index, const char *name, double *time, Error *error)
 {
     SliceExport *export = user;
-    if (!make_table(export, index, error) || !write_table(export, name, error))
+    if (!make_table(export, index, error))
         return false;
     *time = export->table.time;
+    const ExportContent content = {.time = *time, .frame = "box", .slice = &export->table};
+    if (!export_content_write(export->format, &content, name, export->args->output, error))
+        return false;
     export->slices++;
     export->empty += export->table.empty == samples_of(export);
     return true;
@@ -229,7 +207,7 @@ static bool write_one(SliceExport *export, Error *error)
 static bool write_all(SliceExport *export, Error *error)
 {
     const ExportSeries job = {.path = export->args->output,
-                              .extension = forms[SLICE_VTI],
+                              .format = export->format,
                               .count = snapshot_count_steps(export->reader),
                               .write = write_slice,
                               .user = export};
@@ -276,13 +254,13 @@ static void report(const SliceExport *export)
     if (args->quiet)
         return;
     fprintf(stderr, "%s: ", args->output);
-    if (export->form == SLICE_PVD)
+    if (export->format->each)
         fprintf(stderr, "%zu slice%s of ", export->slices, plural(export->slices));
     fprintf(stderr, "%d x %d samples of %s%s%s%s, %s, kernel %s, %s = %.4g s", wanted->samples[0],
             wanted->samples[1], scalar->name, *scalar->unit ? " (" : "", scalar->unit,
             *scalar->unit ? ")" : "", wanted->raw ? "sums" : "means", plane_kernels[wanted->kernel].name,
-            export->form == SLICE_PVD ? "up to t" : "t", export->table.time);
-    if (export->form == SLICE_PVD)
+            export->format->each ? "up to t" : "t", export->table.time);
+    if (export->format->each)
         fprintf(stderr, "\n");
     else
         fprintf(stderr, "; %zu are empty\n", export->table.empty);
@@ -315,10 +293,10 @@ static bool run(SliceExport *export, Error *error)
         return false;
     Headless *context = headless_create(HEADLESS_GPU_AUTO, error);
     if (context && !args->quiet)
-        fprintf(stderr, "renderer: %s\n", headless_renderer(context));
+        renderer_tell(headless_renderer(context));
     export->flaws = snapshot_flaws(export->reader, false);
     export->flaws.summed = true;
-    bool done = context && (export->form == SLICE_PVD ? write_all : write_one)(export, error);
+    bool done = context && (export->format->each ? write_all : write_one)(export, error);
     if (done)
         report(export);
     done = done && write_json(export, error);

@@ -1,22 +1,19 @@
 #include "app/base/file.h"
-#include "app/base/output.h"
 #include "app/base/program.h"
 #include "app/cli/cli_private.h"
-#include "app/files/export_formats.h"
-#include "app/files/pathlines.h"
+#include "app/files/export.h"
 #include "app/files/snapshot.h"
 #include "app/run/offscreen.h"
 #include "slosh/world.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 /* A trail export and its results. */
 typedef struct TrailExport {
     const Args *args;
+    const ExportFormat *format;
     SnapshotReader *reader;
     SnapshotFlaws flaws;
     SnapshotScene scene;
@@ -31,23 +28,24 @@ typedef struct TrailExport {
 
 /* ---- the command line ---- */
 
-static bool refuse_others(const Args *args, Error *error)
+static bool choose_format(TrailExport *export, Error *error)
 {
-    const char *end = strrchr(args->output, '.');
-    const char *option = args->surface                         ? "--surface"
-                         : args->solids                        ? "--solids"
-                         : args->fluids                        ? "--fluids"
-                         : args->color_by != COLOR_CHOICE_AUTO ? "--color-by"
-                         : args->level > 0                     ? "--level"
-                         : args->cell > 0                      ? "--cell"
-                         : args->kernel                        ? "--kernel"
-                         : args->raw                           ? "--raw"
-                         : args->size_given                    ? "--size"
-                                                               : NULL;
+    const Args *args = export->args;
+    const ExportOptions *own = options_of_export(args);
+    const char *option = own->surface                         ? "--surface"
+                         : own->solids                        ? "--solids"
+                         : own->fluids                        ? "--fluids"
+                         : own->color_by != COLOR_CHOICE_AUTO ? "--color-by"
+                         : own->level > 0                     ? "--level"
+                         : own->cell > 0                      ? "--cell"
+                         : own->kernel                        ? "--kernel"
+                         : own->raw                           ? "--raw"
+                         : args_given(args, "--size")         ? "--size"
+                                                              : NULL;
     if (option)
         return error_set(error, "%s makes no sense with --trails, which are lines", option);
-    return (end && end != args->output && strcasecmp(end, ".vtp") == 0) ||
-           error_set(error, "trails are one file, not '%s'; name an OUT.vtp", args->output);
+    export->format = export_format_find(args->output, EXPORT_LINES, error);
+    return export->format != NULL;
 }
 
 /* Starts `length` before the end. */
@@ -93,8 +91,9 @@ static bool check_ids(const TrailExport *export, Error *error)
 static bool understand(TrailExport *export, Error *error)
 {
     const Args *args = export->args;
-    return refuse_others(args, error) && pathlines_def_read(&export->def, args->trails, error) &&
-           export_scalar(args->scalar ? args->scalar : "speed", &export->scalar, error) &&
+    const ExportOptions *own = options_of_export(args);
+    return choose_format(export, error) && pathlines_def_read(&export->def, own->trails, error) &&
+           export_scalar(own->scalar ? own->scalar : "speed", &export->scalar, error) &&
            export_open(args, &export->reader, error) &&
            snapshot_read_scene(export->reader, &export->scene, error) &&
            export_choose(args, export->reader, &export->last, error) && choose_first(export, error) &&
@@ -171,14 +170,10 @@ static bool write_lines(const TrailExport *export, const char *name, const Pathl
                             .order = order->data,
                             .offset = offset->data,
                             .id = trace->id.data};
-    FILE *file = fopen(name, "wb");
-    bool written = file && vtp_write_lines(file, &lines);
-    int reason = errno;
-    if (file && fclose(file) != 0) {
-        reason = written ? errno : reason;
-        written = false;
-    }
-    return written || error_set(error, "%s: cannot be written: %s", export->args->output, strerror(reason));
+    const ExportContent content = {.time = export->time,
+                                   .frame = snapshot_frame_name(options_of_export(export->args)->frame),
+                                   .lines = &lines};
+    return export_content_write(export->format, &content, name, export->args->output, error);
 }
 
 static bool sort_and_write(const TrailExport *export, const char *name, Error *error)
@@ -196,8 +191,8 @@ static bool make(TrailExport *export, Error *error)
     Output output = {0};
     if (!output_begin(&output, export->args->output, error))
         return false;
-    pathlines_begin(&export->trace, &export->def, &export->scene, export->args->frame, export->scalar,
-                    export->args->output);
+    pathlines_begin(&export->trace, &export->def, &export->scene, options_of_export(export->args)->frame,
+                    export->scalar, export->args->output);
     if (take_steps(export, error) && sort_and_write(export, output.temp, error))
         return output_commit(&output, error);
     output_discard(&output);
@@ -227,7 +222,7 @@ static void report(const TrailExport *export)
             "%s: %zu trail%s of %zu points, %s%s%s%s, %zu steps up to t = %.4g s, in the frame of the %s\n",
             args->output, trace->id.count, plural(trace->id.count), trace->line.count, scalar->name,
             *scalar->unit ? " (" : "", scalar->unit, *scalar->unit ? ")" : "", export->steps, export->time,
-            snapshot_frame_name(args->frame));
+            snapshot_frame_name(options_of_export(args)->frame));
 }
 
 static bool write_json(const TrailExport *export, double wall_seconds, Error *error)
@@ -238,8 +233,8 @@ static bool write_json(const TrailExport *export, double wall_seconds, Error *er
         return true;
     json_t *json = json_pack(
         "{s:s, s:s, s:s, s:s, s:I, s:I, s:I, s:I, s:I, s:s, s:f, s:f, s:b}", "command", "export", "input",
-        args->scenes[0], "output", args->output, "frame", snapshot_frame_name(args->frame), "snapshots",
-        (json_int_t) export->steps, "particles", (json_int_t)trace->ends_count, "trails",
+        args->scenes[0], "output", args->output, "frame", snapshot_frame_name(options_of_export(args)->frame),
+        "snapshots", (json_int_t) export->steps, "particles", (json_int_t)trace->ends_count, "trails",
         (json_int_t)trace->id.count, "points", (json_int_t)trace->line.count, "left_out",
         (json_int_t)snapshot_flaws_left_out(&export->flaws), "scalar", scalar_name(export->scalar),
         "simulated_seconds", export->time, "wall_seconds", wall_seconds, "stopped", export->interrupted);
@@ -257,7 +252,7 @@ static bool run(TrailExport *export, Error *error)
         return false;
     Headless *context = derived ? headless_create(HEADLESS_GPU_AUTO, error) : NULL;
     if (context && !args->quiet)
-        fprintf(stderr, "renderer: %s\n", headless_renderer(context));
+        renderer_tell(headless_renderer(context));
     export->flaws = snapshot_flaws(export->reader, false);
     const bool made = (context || !derived) && make(export, error);
     if (made)

@@ -1,20 +1,13 @@
 #include "app/lab/fit.h"
 #include "app/base/file.h"
-#include "app/base/output.h"
 #include "app/base/program.h"
 #include "app/bench/bench.h"
 #include "app/cli/cli_private.h"
+#include "app/cli/option_rows.h"
 #include "app/run/offscreen.h"
 
 #include <math.h>
 #include <string.h>
-
-static bool check_outputs(const FitPlan *plan, Error *error)
-{
-    const char *json = plan->args->json;
-    return fit_scene_check(plan->output, error) && output_check(plan->csv, error) &&
-           (!json || json_file_check(json, error));
-}
 
 /* An error below the scatter of repeated runs would be decided by chance. */
 static bool check_floor(const FitPlan *plan, Error *error)
@@ -76,62 +69,100 @@ static bool search(FitPlan *plan, Error *error)
     }
     if (!plan->args->quiet && runs->there > 0)
         fprintf(stderr, "%d of %d runs were in %s already\n", runs->there, runs->there + runs->made,
-                plan->csv);
+                runs->run->csv);
     if (!plan->args->quiet)
         fit_print(plan, stdout);
     return plan->ladder.best >= 0 || say_nearest(plan, error);
 }
 
-/* Makes a context; NULL if not needed. */
-static bool make_context(const FitPlan *plan, Headless **context, Error *error)
+static bool fit_plan(ExperimentRun *run, Error *error)
 {
-    if (!world_on_gpu(&plan->scene.world))
-        return true;
-    *context = headless_create(plan->args->gpu, error);
-    if (*context)
-        fprintf(stderr, "renderer: %s\n", headless_renderer(*context));
-    return *context != NULL;
+    FitPlan *plan = run->state;
+    const bool ok = fit_name_files(run->args, run->output, run->csv, error) &&
+                    fit_plan_make(run->args, run->output, plan, error);
+    if (ok)
+        notes_print(&plan->notes, stderr);
+    return ok;
 }
 
-static int fit(FitPlan *plan, Error *error)
+static bool fit_check(ExperimentRun *run, Error *error)
 {
-    Headless *context = NULL;
-    Error no_json = {{0}};
-    notes_print(&plan->notes, stderr);
-    const bool ready = check_outputs(plan, error) &&
-                       fit_runs_begin(&plan->axes, plan->csv, plan->args->quiet, &plan->runs, error);
-    bool ok = ready && make_context(plan, &context, error) && search(plan, error);
-    headless_destroy(context);
-    if (interrupted()) {
-        fprintf(stderr, "stopped after %d runs; the same command goes on\n",
-                plan->runs.there + plan->runs.made);
-        return EXIT_INTERRUPTED;
-    }
-    ok = ok && fit_scene_write(plan, error);
-    if (!ok)
-        fprintf(stderr, "%s\n", error->message);
-    else if (!plan->args->quiet)
+    return fit_scene_check(run->output, error);
+}
+
+static bool fit_run(ExperimentRun *run, Error *error)
+{
+    FitPlan *plan = run->state;
+    const bool ok = fit_runs_begin(&plan->axes, run, &plan->runs, error) &&
+                    (!world_on_gpu(&plan->scene.world) || experiment_context(run, error)) &&
+                    search(plan, error);
+    run->there = plan->runs.there + plan->runs.made;
+    run->has_figures = plan->ladder.count > 0;
+    return ok;
+}
+
+static bool fit_report(ExperimentRun *run, Error *error)
+{
+    const FitPlan *plan = run->state;
+    if (!fit_scene_write(plan, error))
+        return false;
+    if (!run->args->quiet)
         say_best(plan);
-    if (!plan->args->json)
-        return ok ? 0 : EXIT_FAILED;
-    if (!ready || plan->ladder.count == 0) {
-        if (json_file_check(plan->args->json, &no_json))
-            failure_json_write(failure_json("fit", "scene", plan->args->scenes[0], plan->output, error),
-                               plan->args->json);
-    } else if (!fit_write_json(plan, ok ? NULL : error->message, plan->args->json, &no_json)) {
-        fprintf(stderr, "%s\n", no_json.message);
-        ok = false;
-    }
-    return ok ? 0 : EXIT_FAILED;
+    return true;
 }
 
-int cmd_fit(const Args *args)
+static json_t *fit_figures(const ExperimentRun *run, const char *failure)
 {
-    static FitPlan plan;
-    Error error = {{0}};
-    interrupt_install();
-    if (fit_plan_make(args, &plan, &error))
-        return fit(&plan, &error);
-    fprintf(stderr, "%s\n", error.message);
-    return EXIT_USAGE;
+    return fit_json(run->state, failure);
 }
+
+static const Experiment experiment = {
+    .table = &chart_table,
+    .size = sizeof(FitPlan),
+    .plan = fit_plan,
+    .check = fit_check,
+    .run = fit_run,
+    .report = fit_report,
+    .json = fit_figures,
+};
+
+/* Without -o the outputs have names of their own. */
+static void files_unnamed(CommandFiles *files, const Args *args)
+{
+    char output[1024];
+    if (args->output)
+        return;
+    fit_default_output(args->scenes[0], output);
+    command_files_add(files, FILE_REPLACED, "the scene of slosh fit,", output, NULL);
+    command_files_add_beside(files, "the table of slosh fit,", output, strlen(".yaml"), ".csv", NULL);
+}
+
+static int run_command(const Args *args)
+{
+    return experiment_run(&experiment, args);
+}
+
+/* clang-format off */
+static const OptionRow options[] = {
+    {"--error", "PERCENT", OPTION_NUMBER, .offset = offsetof(FitOptions, error), .max = 1000, .flags = OPTION_OWN | OPTION_OPEN_LOW, .help = "the cheapest settings within that error against the scene's finest run, or the case's reference; more than 0: a run without error is the reference itself"},
+    {"--frame-ms", "MS", OPTION_NUMBER, .offset = offsetof(FitOptions, frame_ms), .max = 1e6, .flags = OPTION_OWN | OPTION_OPEN_LOW, .help = "the most accurate settings that compute a frame, 1/30 s, in so many ms in the mean, and no slower than real time"},
+    ROW_OUTPUT("OUT", .files = files_chart, .help = "the scene with these settings, OUT.yaml (NAME_fit.yaml); its runs in OUT.csv, which a later run goes on with"),
+    ROW_TIME(0, "simulated seconds of a scene (2); a case has its own"),
+    ROWS_SCENE, ROWS_PROCESSOR, ROW_GPU, ROW_SHADERS, ROW_DEVICE_REFUSED("what is compared moves as the scene says, and no other way"),
+    ROW_JSON, ROWS_END
+};
+/* clang-format on */
+
+const Command command_fit = {
+    .name = "fit",
+    .usage = "SCENE|CASE --error PERCENT|--frame-ms MS ...",
+    .help = "the cheapest settings within an error, or with --frame-ms the most accurate in real time",
+    .takes = "scene or case",
+    .takes_min = 1,
+    .takes_max = 1,
+    .own_size = sizeof(FitOptions),
+    .argument_files = files_scene,
+    .unnamed_files = files_unnamed,
+    .options = options,
+    .run = run_command,
+};

@@ -1,17 +1,17 @@
 #include "app/base/file.h"
 #include "app/base/program.h"
 #include "app/cli/cli_private.h"
+#include "app/cli/option_rows.h"
 #include "app/files/export.h"
-#include "app/run/measure/metric.h"
+#include "app/files/pictures.h"
+#include "app/run/measure/measure.h"
 #include "app/run/offscreen.h"
-#include "app/scene/keys.h"
-#include "app/scene/save.h"
-#include "app/scene/scene_files.h"
+#include "app/scene/scene.h"
 #include "render/frame/view.h"
 #include "sim/def/fluids.h"
 #include "sim/kernel/kernel.h"
-#include "sim/start/seed.h"
-#include "sim/step/step_control.h"
+#include "sim/start/start.h"
+#include "sim/step/constants.h"
 #include "slosh/world.h"
 
 #include <errno.h>
@@ -80,13 +80,13 @@ static void put_backend(Info *info, const Named *backend, const WorldDef *scene,
 /* A small world: a block of fluid in a box. */
 static WorldDef small_def(void)
 {
+    static const Fill block = {.kind = FILL_BLOCK, .min = {-0.5, 0, -0.5}, .max = {0.5, 0.5, 0.5}};
     WorldDef def = world_def_default();
     for (int k = 0; k < 3; k++)
         def.box_size[k] = 1;
     def.spacing = 0.1;
     def.fluid_count = 1;
-    def.fluids[0] = (FluidDef){.density = 1000, .fill_count = 1};
-    def.fluids[0].fills[0] = (Fill){.kind = FILL_BLOCK, .min = {-0.5, 0, -0.5}, .max = {0.5, 0.5, 0.5}};
+    def.fluids[0] = (FluidDef){.density = 1000, .fill_count = 1, .fills = &block};
     return def;
 }
 
@@ -175,7 +175,13 @@ static void put_views(Info *info)
             printf("  %-12s %s\n", name, unit);
         add_row(info, name, "unit", unit);
     }
-    put_named(info, "exports", "exports", export_kinds());
+    begin_list(info, "exports", "exports");
+    for (int i = 0; export_format_at(i); i++)
+        put_row(info, export_format_at(i)->extension, export_format_at(i)->help);
+    begin_list(info, "pictures", "pictures");
+    for (int i = 0; picture_format_at(i); i++)
+        put_row(info, *picture_format_at(i)->extension ? picture_format_at(i)->extension : "folder",
+                picture_format_at(i)->help);
 }
 
 static void put_metrics(Info *info)
@@ -199,14 +205,14 @@ static void print_friction(const WorldDef *def)
     const StepFriction friction = step_friction(def);
     for (int f = 0; f < def->fluid_count; f++) {
         const FluidDef *fluid = &def->fluids[f];
-        const double numerical = numerical_kinematic(def, friction.numerical) * fluid->density,
+        const double numerical = friction.numerical * fluid->density,
                      artificial =
                          numerical_kinematic(def, step_alpha(def, friction.alpha, f)) * fluid->density;
         if (fmax(numerical, artificial) > fluid->viscosity)
             printf(
                 "fluids[%d]: its viscosity is %g Pa s; it rubs as %.3g Pa s does, at this spacing, by %s\n",
                 f, fluid->viscosity, fmax(numerical, artificial + fluid->viscosity),
-                numerical > 0 ? "solver.numerical_viscosity" : "solver.artificial_viscosity");
+                numerical > 0 ? friction.numerical_key : "solver.artificial_viscosity");
     }
 }
 
@@ -247,6 +253,15 @@ static int fail(int code, const Error *error)
     return code;
 }
 
+typedef struct InfoOptions {
+    const char *save; /* FILE, or NULL */
+} InfoOptions;
+
+static const InfoOptions *own(const Args *args)
+{
+    return args->own;
+}
+
 /* Saves the scene with the command line's settings as a file. */
 static bool save(const Args *args, const Scene *scene, Error *error)
 {
@@ -257,7 +272,7 @@ static bool save(const Args *args, const Scene *scene, Error *error)
     if (!text)
         return false;
     const SceneSource what = {.scene = scene, .path = scene->path, .text = text, .size = size};
-    const bool ok = scene_save(&what, args->save, &saved, error);
+    const bool ok = scene_save(&what, own(args)->save, &saved, error);
     scene_saved_words(&saved, words, sizeof words);
     if (ok && !args->quiet)
         fprintf(stderr, "%s\n", words);
@@ -266,7 +281,7 @@ static bool save(const Args *args, const Scene *scene, Error *error)
     return ok;
 }
 
-int cmd_info(const Args *args)
+static int run_command(const Args *args)
 {
     Error error = {{0}};
     Notes notes;
@@ -276,11 +291,11 @@ int cmd_info(const Args *args)
         return fail(EXIT_USAGE, &error);
     if (args->json && !json_file_check(args->json, &error))
         return fail(EXIT_FAILED, &error);
-    if (args->save && !args->scene_count)
+    if (own(args)->save && !args->scene_count)
         error_set(&error, "slosh info: --save writes a scene; name the one that it comes from");
     if (*error.message)
         return fail(EXIT_USAGE, &error);
-    if (args->save && !save(args, &scene, &error))
+    if (own(args)->save && !save(args, &scene, &error))
         return fail(EXIT_FAILED, &error);
     Info info = {.quiet = args->quiet,
                  .json = json_pack("{s:s, s:s}", "command", "info", "version", SLOSH_VERSION)};
@@ -289,3 +304,24 @@ int cmd_info(const Args *args)
     json_decref(info.json);
     return written ? 0 : fail(EXIT_FAILED, &error);
 }
+
+/* clang-format off */
+static const OptionRow options[] = {
+    ROWS_SCENE, ROW_VIEW, ROW_PRESET, ROWS_PROCESSOR, ROW_GPU,
+    ROW_DEVICE_REFUSED("nothing is simulated; slosh devices lists what is in a recording"),
+    {"--save", "FILE", OPTION_TEXT, OWN(InfoOptions, save), .files = files_new, .help = "write the scene with what --set and the like say into a new file FILE.yaml, comments and all"},
+    ROW_JSON, ROWS_END
+};
+/* clang-format on */
+
+const Command command_info = {
+    .name = "info",
+    .usage = "[SCENE] [OPTIONS]",
+    .help = "lists what there is to choose from, and a scene's settings",
+    .takes = "scene",
+    .takes_max = 1,
+    .own_size = sizeof(InfoOptions),
+    .argument_files = files_scene,
+    .options = options,
+    .run = run_command,
+};

@@ -2,8 +2,7 @@
 
 #include "app/base/program.h"
 #include "app/cli/cli_private.h"
-#include "sim/gpu/gl_context.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,46 +23,12 @@ static void bound_spinning(char *argv[])
 
 static int run_command(const Args *args)
 {
-    switch (args->command) {
-    case COMMAND_PLAY:
-        return cmd_play(args);
-    case COMMAND_RENDER:
-        return cmd_render(args);
-    case COMMAND_RUN:
-        return cmd_run(args);
-    case COMMAND_BENCH:
-        return cmd_bench(args);
-    case COMMAND_VALIDATE:
-        return cmd_validate(args);
-    case COMMAND_CHART:
-        return cmd_chart(args);
-    case COMMAND_STABILITY:
-        return cmd_stability(args);
-    case COMMAND_FIT:
-        return cmd_fit(args);
-    case COMMAND_REPLAY:
-        return cmd_replay(args);
-    case COMMAND_EXPORT:
-        return cmd_export(args);
-    case COMMAND_DEVICES:
-        return cmd_devices(args);
-    case COMMAND_SCENES:
-        return cmd_scenes(args);
-    case COMMAND_NEW:
-        return cmd_new(args);
-    case COMMAND_INFO:
-        return cmd_info(args);
-    case COMMAND_VERSION:
+    if (!args->command)
         puts("slosh " SLOSH_VERSION);
-        return 0;
-    case COMMAND_HELP:
-    case COMMAND_COUNT:
-        break;
-    }
-    if (args->help_topic)
-        args->help_topic->print(stdout);
+    else if (args->help)
+        cli_help(args->command, stdout);
     else
-        cli_help(args->help_for, stdout);
+        return args->command->run(args);
     return 0;
 }
 
@@ -79,15 +44,18 @@ static int with_gl_errors(int code)
 
 int main(int argc, char *argv[])
 {
-    static Args args;
+    Args args = {0};
     Error error = {{0}};
     standard_streams_open();
     bound_spinning(argv);
     backends_add();
-    if (!args_parse(&cli_table, argc, argv, &args, &error) || !file_clash_check(&args, &error)) {
+    if (!args_parse(cli_commands, argc, argv, &args, &error) || !command_files_check(&args, &error)) {
         fprintf(stderr, "%s\n", error.message);
+        args_free(&args);
         return EXIT_USAGE;
     }
     shader_source_set_directory(args.shaders);
-    return standard_streams_flush("slosh", interrupt_exit_code(with_gl_errors(run_command(&args))));
+    const int code = interrupt_exit_code(with_gl_errors(run_command(&args)));
+    args_free(&args);
+    return standard_streams_flush("slosh", code);
 }

@@ -1,8 +1,18 @@
 #include "app/cli/cli_private.h"
-#include "app/scene/keys.h"
-#include "app/scene/scene_files.h"
+#include "app/scene/scene.h"
 
 #include <string.h>
+
+void option_words(const Command *command, const OptionRow *option, char *text, size_t size)
+{
+    const Key *key = option->path ? scene_key_find(option->path) : NULL;
+    const Key named = {.choice = option->names}, *names = key ? key : &named;
+    size_t at = (size_t)snprintf(text, size, "%s", option->help);
+    for (int i = 0; key_choice(names, i) && at < size; i++)
+        at += (size_t)snprintf(text + at, size - at, "%s%s", i ? ", " : ": ", key_choice(names, i));
+    if (option->kind == OPTION_SIZE && command->width > 0 && at < size)
+        snprintf(text + at, size - at, " (%dx%d)", command->width, command->height);
+}
 
 /* Fills in the option's value at `index`, from its list or from "a|b|c"; returns false past the last. */
 static bool value_at(const OptionRow *option, int index, char value[64])
@@ -23,7 +33,7 @@ static bool value_at(const OptionRow *option, int index, char value[64])
 
 static bool takes_setting(const OptionRow *option)
 {
-    return option->kind == OPTION_SWEEP || option->kind == OPTION_AXIS ||
+    return option->kind == OPTION_SWEEP || option->kind == OPTION_LIST ||
            (option->kind == OPTION_SETTING && !option->path);
 }
 
@@ -42,15 +52,15 @@ static void put_values(FILE *file, const OptionRow *option)
                                          : "");
 }
 
-static void put_words_of_command(FILE *file, const CommandRow *row, const char *pattern)
+static void put_words_of_command(FILE *file, const Command *command, const char *pattern)
 {
     fprintf(file, "    %s)\n        offered='", pattern);
-    for (const OptionRow *option = cli_table.options; option->name; option++)
-        if (option_listed(option, row->command))
+    for (const OptionRow *option = command->options; option->name; option++)
+        if (option->kind != OPTION_REFUSED)
             fprintf(file, "%s ", option->name);
     fputs("'\n        case $before in\n", file);
-    for (const OptionRow *option = cli_table.options; option->name; option++)
-        if (option_listed(option, row->command))
+    for (const OptionRow *option = command->options; option->name; option++)
+        if (option->kind != OPTION_REFUSED)
             put_values(file, option);
     fputs("        esac\n        ;;\n", file);
 }
@@ -70,10 +80,10 @@ static void put_lists(FILE *file)
     SceneNames scenes;
     scene_path_names(&scenes);
     fputs("    local verbs='", file);
-    for (const CommandRow *row = cli_table.commands; row->name; row++)
-        fprintf(file, "%s ", row->name);
+    for (CommandList at = cli_commands; *at; at++)
+        fprintf(file, "%s ", (*at)->name);
     fputs("' topics='", file);
-    for (const HelpTopic *topic = cli_table.topics; topic->name; topic++)
+    for (const HelpTopic *topic = help_topics; topic->name; topic++)
         fprintf(file, "%s ", topic->name);
     fputs("'\n    local scenes='", file);
     for (int i = 0; i < scenes.count; i++)
@@ -89,10 +99,9 @@ static void put_choice(FILE *file, const char *verb)
 {
     put_lists(file);
     fprintf(file, "    case %s in\n", verb);
-    for (const CommandRow *row = cli_table.commands; row->name; row++)
-        if (row->command != COMMAND_PLAY)
-            put_words_of_command(file, row, row->name);
-    put_words_of_command(file, command_row(COMMAND_PLAY), "*");
+    for (CommandList at = cli_commands + 1; *at; at++)
+        put_words_of_command(file, *at, (*at)->name);
+    put_words_of_command(file, cli_commands[0], "*");
     fputs("    esac\n", file);
 }
 
@@ -167,13 +176,13 @@ static void put_line(FILE *file, const char *text)
 }
 
 /* "slosh render SCENE -o OUT" with the name of the command in bold. */
-static void put_usage(FILE *file, const CommandRow *row)
+static void put_usage(FILE *file, const Command *command)
 {
-    fprintf(file, "\\fBslosh %s\\fR ", row->name);
-    put_line(file, row->usage);
+    fprintf(file, "\\fBslosh %s\\fR ", command->name);
+    put_line(file, command->usage);
 }
 
-static void put_option(FILE *file, const CommandRow *row, const OptionRow *option)
+static void put_option(FILE *file, const Command *command, const OptionRow *option)
 {
     char words[OPTION_WORDS_SIZE];
     fputs(".TP\n\\fB", file);
@@ -185,18 +194,18 @@ static void put_option(FILE *file, const CommandRow *row, const OptionRow *optio
         fputs("\\fR", file);
     }
     fputc('\n', file);
-    option_words(row, option, words, sizeof words);
+    option_words(command, option, words, sizeof words);
     put_line(file, words);
 }
 
-static void put_command(FILE *file, const CommandRow *row)
+static void put_command(FILE *file, const Command *command)
 {
     fputs(".SS ", file);
-    put_usage(file, row);
-    put_line(file, row->help);
-    for (const OptionRow *option = cli_table.options; option->name; option++)
-        if (option_listed(option, row->command))
-            put_option(file, row, option);
+    put_usage(file, command);
+    put_line(file, command->help);
+    for (const OptionRow *option = command->options; option->name; option++)
+        if (option->kind != OPTION_REFUSED)
+            put_option(file, command, option);
 }
 
 static const char head[] =
@@ -227,15 +236,15 @@ void manual_print(FILE *file)
     fputs(".TH SLOSH 1 \"\" \"slosh " SLOSH_VERSION "\" \"User Commands\"\n"
           ".SH NAME\nslosh \\- a fluid of particles, simulated, shown and measured\n.SH SYNOPSIS\n",
           file);
-    for (const CommandRow *row = cli_table.commands; row->name; row++) {
-        put_usage(file, row);
+    for (CommandList at = cli_commands; *at; at++) {
+        put_usage(file, *at);
         fputs(".br\n", file);
     }
     fputs("\\fBslosh \\-\\-version\\fR\n", file);
     fputs(head, file);
-    for (const CommandRow *row = cli_table.commands; row->name; row++)
-        put_command(file, row);
-    for (const HelpTopic *topic = cli_table.topics; topic->name; topic++)
+    for (CommandList at = cli_commands; *at; at++)
+        put_command(file, *at);
+    for (const HelpTopic *topic = help_topics; topic->name; topic++)
         if (topic->help)
             fprintf(file, ".TP\n\\fBslosh help %s\\fR\nPrints %s.\n", topic->name, topic->help);
     fputs(tail, file);

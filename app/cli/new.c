@@ -1,5 +1,6 @@
-#include "app/base/output.h"
+#include "app/base/file.h"
 #include "app/cli/cli_private.h"
+#include "app/cli/option_rows.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -47,7 +48,7 @@ static bool write_new(const char *path, Error *error)
     return ok;
 }
 
-int cmd_new(const Args *args)
+static int run_command(const Args *args)
 {
     const char *path = args->scenes[0], *dot = strrchr(path, '.');
     Error error = {{0}};
@@ -62,3 +63,20 @@ int cmd_new(const Args *args)
     fprintf(stderr, "%s\n", error.message);
     return !dot || strcmp(dot, ".yaml") != 0 ? EXIT_USAGE : EXIT_FAILED;
 }
+
+/* clang-format off */
+static const OptionRow options[] = {
+    ROWS_END
+};
+/* clang-format on */
+
+const Command command_new = {
+    .name = "new",
+    .usage = "FILE.yaml [OPTIONS]",
+    .help = "writes the smallest scene, with a comment on each line, to begin with",
+    .takes = "new scene",
+    .takes_min = 1,
+    .takes_max = 1,
+    .options = options,
+    .run = run_command,
+};

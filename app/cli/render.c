@@ -1,14 +1,12 @@
-#include "app/cli/render.h"
-
 #include "app/base/file.h"
 #include "app/base/program.h"
 #include "app/cli/cli_private.h"
+#include "app/cli/option_rows.h"
 #include "app/files/pictures.h"
 #include "app/run/compare/compare.h"
-#include "app/run/compare/panel_pictures.h"
 #include "app/run/playback/playback.h"
 #include "app/run/recording/recording.h"
-#include "app/scene/scene_files.h"
+#include "app/scene/scene.h"
 #include "slosh/world.h"
 
 #include <math.h>
@@ -38,10 +36,11 @@ typedef struct Render {
 
 static Schedule make_schedule(const Args *args, PicturesKind kind)
 {
+    const RenderOptions *own = options_of_render(args);
     if (kind == PICTURES_PNG)
         return (Schedule){args->time, 0, 1};
-    double count = args->frames ? args->frames : fmax(ceil(args->time * args->fps - 1e-6), 1);
-    return (Schedule){0, 1 / args->fps, (size_t)count};
+    double count = own->frames ? own->frames : fmax(ceil(args->time * own->fps - 1e-6), 1);
+    return (Schedule){0, 1 / own->fps, (size_t)count};
 }
 
 /* Time shown in a panel. A panel beside a leading scene shows the time of the scene's state, as in the
@@ -50,9 +49,11 @@ static Schedule make_schedule(const Args *args, PicturesKind kind)
 static double shown_at(const Render *render, int panel, double time)
 {
     const int leader = render->plan.leader_of[panel];
-    const bool follows = leader >= 0 && leader != render->plan.world_of[panel] && !render->args->interpolate;
-    return follows && session_reached(&render->sessions[leader], time) ? render->sessions[leader].info.time
-                                                                       : time;
+    const bool follows = leader >= 0 && leader != render->plan.world_of[panel] &&
+                         !options_of_render(render->args)->interpolate;
+    return follows && session_reached(&render->sessions[leader], time)
+               ? render->sessions[leader].run.info.time
+               : time;
 }
 
 /* Facts of a panel's content; of a recorded run, known facts before its first picture. */
@@ -62,8 +63,9 @@ static PanelFacts facts_of(const Render *render, int panel, double time)
     const int world = plan->world_of[panel], file = plan->file_of[panel];
     if (world >= 0) {
         const Session *session = &render->sessions[world];
-        return (PanelFacts){
-            .def = &session->scene.world, .particles = session->info.count, .spacing = session->info.spacing};
+        return (PanelFacts){.def = &session->run.scene.world,
+                            .particles = session->run.info.count,
+                            .spacing = session->run.info.spacing};
     }
     const Recorded *run = &plan->files[file];
     const PictureSource *source = &render->panel_pictures.sources[render->panel_pictures.source_of[panel]];
@@ -81,7 +83,7 @@ static void said_of(const RenderPlan *plan, int panel, char lines[VIEW_SET_SIZE 
 {
     const Args *args = plan->args;
     const size_t size = VIEW_SET_SIZE + TITLE_SIZE;
-    size_t used = (size_t)snprintf(lines, size, "%s\n", plan->views[panel]->set);
+    size_t used = (size_t)snprintf(lines, size, "%s\n", text_or_empty(plan->views[panel]->set));
     for (int i = 0; i < args->sweep_count && used < size; i++)
         used += (size_t)snprintf(lines + used, size - used, "%s=\n", args->sweeps[i].key);
 }
@@ -112,14 +114,15 @@ static bool open_shoot(Render *render, Error *error)
     RenderPlan *plan = &render->plan;
     for (int i = 0; i < plan->panel_count; i++) {
         const int world = plan->world_of[i], file = plan->file_of[i];
-        const bool follows = plan->leader_of[i] >= 0 && !render->args->interpolate;
+        const bool follows = plan->leader_of[i] >= 0 && !options_of_render(render->args)->interpolate;
         panels[i] = (PicturePanel){.session = world >= 0 ? &render->sessions[world] : NULL,
                                    .recorded = file >= 0 ? &plan->files[file] : NULL,
                                    .scene = follows ? &render->sessions[plan->leader_of[i]] : NULL,
                                    .view = plan->views[i]};
     }
-    return panel_pictures_open(&render->panel_pictures, panels, plan->panel_count, render->args->interpolate,
-                               render->args->width, render->args->height, error);
+    return panel_pictures_open(&render->panel_pictures, panels, plan->panel_count,
+                               options_of_render(render->args)->interpolate, render->args->width,
+                               render->args->height, error);
 }
 
 /* Fraction of work done, by simulated time, as the solver takes most of the time. */
@@ -129,7 +132,7 @@ static double fraction_done(const Render *render)
     const double last = schedule->first + schedule->interval * (double)(schedule->count - 1);
     double simulated = 0;
     for (int i = 0; i < render->plan.world_count; i++)
-        simulated += render->sessions[i].info.time / render->plan.world_count;
+        simulated += render->sessions[i].run.info.time / render->plan.world_count;
     return last > 0 ? simulated / last : (double)render->figures.pictures / (double)schedule->count;
 }
 
@@ -146,7 +149,7 @@ static bool step(Render *render, int world, double time, Error *error)
     Session *session = &render->sessions[world];
     if (!panel_pictures_watch(&render->panel_pictures, session, time, error))
         return blame(session, error);
-    const bool last = session->info.time + 1.001 * session->scene.world.dt >= time;
+    const bool last = session->run.info.time + 1.001 * session->run.scene.world.dt >= time;
     const double began = wall_ms();
     if ((panel_pictures_interpolates(&render->panel_pictures, session) && last &&
          !panel_pictures_keep(&render->panel_pictures, session, error)) ||
@@ -172,7 +175,7 @@ static int find_next(const Render *render, double time)
     int next = -1;
     for (int i = 0; i < render->plan.world_count; i++)
         if (!session_reached(&render->sessions[i], due_at(render, i, time)) &&
-            (next < 0 || render->sessions[i].info.time < render->sessions[next].info.time))
+            (next < 0 || render->sessions[i].run.info.time < render->sessions[next].run.info.time))
             next = i;
     return next;
 }
@@ -183,7 +186,7 @@ static bool advance(Render *render, double time, Error *error)
     int next;
     while ((next = find_next(render, time)) >= 0 && !interrupted()) {
         const double due = due_at(render, next, time);
-        world_stop_at(render->sessions[next].world, due);
+        world_stop_at(render->sessions[next].run.world, due);
         if (!step(render, next, due, error))
             return false;
     }
@@ -202,7 +205,7 @@ static bool take_picture(Render *render, double time, Error *error)
         if (!panel_pictures_set_title(panel_pictures, i, &titles[i], error))
             return false;
     }
-    render->text.time = render->sessions[0].info.time;
+    render->text.time = render->sessions[0].run.info.time;
     if (!panel_pictures_draw(panel_pictures, error) ||
         !pictures_add(render->pictures, &panel_pictures->image, error))
         return false;
@@ -269,10 +272,10 @@ static void tell_times(const Render *render)
 {
     for (int i = 0; i < render->plan.world_count; i++) {
         const Session *session = &render->sessions[i];
-        if (render->args->interpolate && session->scene.world.step_mode == STEP_CFL)
+        if (options_of_render(render->args)->interpolate && session->run.scene.world.step_mode == STEP_CFL)
             fprintf(stderr, "%s--interpolate has no effect: in mode cfl states fall on the pictures' times\n",
                     session->prefix);
-        if (render->schedule.count > 1 && !render->args->interpolate)
+        if (render->schedule.count > 1 && !options_of_render(render->args)->interpolate)
             session_warn_uneven(session, "pictures", render->schedule.interval,
                                 render->schedule.interval * (render->schedule.count - 1));
     }
@@ -341,7 +344,7 @@ static bool understand(const Args *args, PicturesKind *kind, Error *error)
 {
     if (!pictures_kind(args->output, kind, error))
         return false;
-    return *kind != PICTURES_PNG || args->frames == 0 ||
+    return *kind != PICTURES_PNG || options_of_render(args)->frames == 0 ||
            error_set(error,
                      "--frames makes no sense for one picture, %s; name a FILE.mp4 or a folder, or "
                      "leave --frames out",
@@ -372,7 +375,19 @@ static int open_all(Render *render, PicturesKind *kind, Error *error)
     return open_sessions(render, error);
 }
 
-int cmd_render(const Args *args)
+static void files_pictures(CommandFiles *files, const OptionRow *row, const char *output)
+{
+    PicturesKind kind;
+    const bool folder = pictures_kind(output, &kind, NULL) && kind == PICTURES_FOLDER;
+    command_files_add(files, FILE_REPLACED, row->name, output, folder ? "frame_[0-9]*.png" : NULL);
+}
+
+static void files_argument(CommandFiles *files, const Args *args, const char *name)
+{
+    (recording_is_file(name) ? files_recording : files_scene)(files, args, name);
+}
+
+static int run_command(const Args *args)
 {
     if (recorded_is_file(args->scenes[0]))
         return render_file(args);
@@ -391,9 +406,9 @@ int cmd_render(const Args *args)
     if (code == EXIT_USAGE || (code == 0 && args->json && !json_file_check(args->json, &error))) {
         fprintf(stderr, "%s\n", error.message);
         code = code == 0 ? EXIT_FAILED : code;
-    } else if (code != 0 ||
-               !(render->pictures = pictures_create(args->output, args->width, args->height, args->fps,
-                                                    make_schedule(args, kind).count, &error))) {
+    } else if (code != 0 || !(render->pictures = pictures_create(args->output, args->width, args->height,
+                                                                 options_of_render(args)->fps,
+                                                                 make_schedule(args, kind).count, &error))) {
         code = fail(render, &error);
     } else {
         code = shoot_all(render, kind, &error);
@@ -405,3 +420,35 @@ int cmd_render(const Args *args)
     free(render);
     return code;
 }
+
+/* clang-format off */
+static const OptionRow options[] = {
+    ROW_OUTPUT("OUT", .files = files_pictures, .help = "the file or folder to write"),
+    ROW_TIME(5, "simulated seconds (5; of a recorded run or session all of it, and the one picture of its end)"),
+    {"--interpolate", NULL, OPTION_FLAG, OWN(RenderOptions, interpolate),
+     .help = "with a fixed step: pictures of the states between steps, at their own times"},
+    ROW_FRAMES(RenderOptions),
+    {"--fps", "N", OPTION_NUMBER, OWN(RenderOptions, fps), .initial = 30, .min = 0.001, .max = 1000, .help = "frames in a second (30)"},
+    ROW_PICTURE_SIZE,
+    {"--compare", "KEY=A,B,...", OPTION_SWEEP, AT(sweeps),
+     .help = "two or four settings side by side in one picture: particles, backend, method, view or any scene key; twice with two values each for all four"},
+    ROWS_SCENE, ROW_VIEW, ROW_PRESET, ROWS_PROCESSOR, ROW_GPU, ROW_SHADERS, ROWS_DEVICE_MOVES, ROW_JSON, ROWS_END
+};
+/* clang-format on */
+
+const Command command_render = {
+    .name = "render",
+    .usage = "SCENE|IN.h5part|SESSION -o OUT.png|OUT.mp4|OUT.gif|FOLDER ...",
+    .help =
+        "a scene, a recorded run or a recorded session as a picture, a video or a folder of pictures; needs no display",
+    .takes = "scene",
+    .takes_min = 1,
+    .takes_max = 1,
+    .output = "OUT.png, OUT.mp4, OUT.gif or a folder",
+    .width = 1280,
+    .height = 720,
+    .own_size = sizeof(RenderOptions),
+    .argument_files = files_argument,
+    .options = options,
+    .run = run_command,
+};

@@ -1,10 +1,9 @@
 #include "app/base/file.h"
-#include "app/cli/render.h"
-#include "app/cli/sweep.h"
+#include "app/cli/cli_private.h"
 #include "app/run/compare/compare.h"
 #include "app/scene/scene.h"
 #include "sim/flow/flow.h"
-#include "sim/start/seed.h"
+#include "sim/start/start.h"
 #include "slosh/world.h"
 
 #include <math.h>
@@ -30,7 +29,7 @@ static bool load(const RenderPlan *plan, int setting, const ViewDef *view, int e
                  Notes *notes, Error *error)
 {
     static const ViewDef none;
-    static CompareSettings beside;
+    CompareSettings beside;
     const Args *args = plan->args;
     char said[ARGS_SWEEPS_MAX][SWEEP_SAID];
     SceneSettings settings = args->settings;
@@ -67,7 +66,7 @@ static bool sets(const char *setting, const char *key)
 /* True if the view overrides the key. */
 static bool has_own(const ViewDef *view, const char *key)
 {
-    for (const char *line = view->set; *line; line += strcspn(line, "\n"), line += *line != 0)
+    for (const char *line = text_or_empty(view->set); *line; line += strcspn(line, "\n"), line += *line != 0)
         if (sets(line, key))
             return true;
     return false;
@@ -121,7 +120,7 @@ static int first_alike(const RenderPlan *plan, int panel)
 {
     for (int i = 0; i < panel; i++)
         if (compare_is_same(plan->views[i], plan->views[panel]) &&
-            (*plan->views[panel]->file ||
+            (plan->views[panel]->file ||
              same_world(plan, plan->views[i], plan->setting_of[i], plan->setting_of[panel])))
             return i;
     return panel;
@@ -182,7 +181,7 @@ static bool find_states(RenderPlan *plan, Notes notes[PANELS_MAX], Error *error)
         plan->world_of[i] = plan->file_of[i] = -1;
         notes[i].count = 0;
         if (first < i ? !share(plan, i, first, error)
-                      : !(*plan->views[i]->file ? add_file : add_world)(plan, i, &notes[i], error))
+                      : !(plan->views[i]->file ? add_file : add_world)(plan, i, &notes[i], error))
             return false;
     }
     for (int i = 0; i < plan->panel_count; i++)
@@ -276,7 +275,7 @@ static void tell_own(const RenderPlan *plan, const Notes notes[], const Notes ow
 
 bool render_plan_make(const Args *args, RenderPlan *plan, Error *error)
 {
-    static Notes notes[PANELS_MAX], own[PANELS_MAX];
+    Notes notes[PANELS_MAX] = {{0}}, own[PANELS_MAX] = {{0}};
     const size_t settings = sweeps_combinations(args->sweeps, args->sweep_count);
     *plan = (RenderPlan){.args = args, .setting_count = (int)settings};
     if (args->sweep_count && settings != 2 && settings != 4)
@@ -379,7 +378,7 @@ static void tell_apart(const RenderPlan *plan, const RenderFigures *figures)
 
 static void tell_world(const Session *session, double step_seconds, const Args *args)
 {
-    const WorldInfo *info = &session->info;
+    const WorldInfo *info = &session->run.info;
     fprintf(stderr, "%s%zu particle%s, %.3g s simulated in %.3g s of steps (%.3g times real time)\n",
             session->prefix, info->count, plural(info->count), info->time, step_seconds,
             info->time / fmax(step_seconds, 1e-6));
@@ -391,7 +390,7 @@ static void report_several(const RenderPlan *plan, const Session sessions[], con
     const Args *args = plan->args;
     const Session *first = &sessions[0];
     if (figures->stopped)
-        fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", first->info.time, args->output);
+        fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", first->run.info.time, args->output);
     for (int i = 0; !args->quiet && i < plan->world_count; i++)
         tell_world(&sessions[i], figures->step_seconds[i], args);
     if (!args->quiet)
@@ -400,7 +399,7 @@ static void report_several(const RenderPlan *plan, const Session sessions[], con
     tell_same(plan, figures);
     if (!args->quiet)
         fprintf(stderr, "%d panels, %.3g s simulated in %.3g s: %s, %zu picture%s\n", plan->panel_count,
-                first->info.time, 1e-3 * (wall_ms() - first->began_ms), args->output, figures->pictures,
+                first->run.info.time, 1e-3 * (wall_ms() - first->began_ms), args->output, figures->pictures,
                 plural(figures->pictures));
 }
 
@@ -462,7 +461,7 @@ static json_t *several_json(const RenderPlan *plan, const Session sessions[],
         json_array_append_new(panels, panel_json(plan, sessions, panel_pictures, figures, i));
     return json_pack("{s:s, s:s, s:s, s:I, s:f, s:f, s:b, s:s, s:o}", "command", "render", "scene",
                      plan->scenes[0].path, "output", args->output, "pictures", (json_int_t)figures->pictures,
-                     "simulated_seconds", sessions[0].info.time, "wall_seconds",
+                     "simulated_seconds", sessions[0].run.info.time, "wall_seconds",
                      1e-3 * (wall_ms() - sessions[0].began_ms), "stopped", figures->stopped, "renderer",
                      headless_renderer(sessions[0].context), "panels", panels);
 }

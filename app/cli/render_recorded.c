@@ -1,15 +1,14 @@
 #include "app/base/file.h"
 #include "app/base/program.h"
 #include "app/cli/args/args.h"
-#include "app/cli/render.h"
+#include "app/cli/cli_private.h"
 #include "app/files/pictures.h"
 #include "app/run/compare/compare.h"
-#include "app/run/compare/panel_pictures.h"
 #include "app/run/offscreen.h"
 #include "app/run/playback/playback.h"
 #include "app/run/session.h"
 #include "render/frame/view.h"
-#include "render/panels.h"
+#include "render/renderer.h"
 #include "slosh/world.h"
 
 #include <inttypes.h>
@@ -58,7 +57,7 @@ static bool refuse(const Args *args, const char *option, const char *why, Error 
 
 static bool check_options(const Args *args, Error *error)
 {
-    if (args->interpolate)
+    if (options_of_render(args)->interpolate)
         return refuse(args, "--interpolate", "a file has no states between its steps", error);
     if (args->device)
         return refuse(args, "--device", "the box moves as it did", error);
@@ -71,7 +70,7 @@ static bool check_output(const Args *args, PicturesKind *kind, Error *error)
 {
     if (!pictures_kind(args->output, kind, error))
         return false;
-    return *kind != PICTURES_PNG || args->frames == 0 ||
+    return *kind != PICTURES_PNG || options_of_render(args)->frames == 0 ||
            error_set(error, "--frames makes no sense for one picture, %s", args->output);
 }
 
@@ -80,23 +79,24 @@ static bool check_output(const Args *args, PicturesKind *kind, Error *error)
 static bool choose_times(FileRender *render, const Recorded *recorded, PicturesKind kind, Error *error)
 {
     const Args *args = render->args;
-    const double until = args->time_given ? args->time : recorded->last;
+    const RenderOptions *own = options_of_render(args);
+    const double until = args_given(args, "--time") ? args->time : recorded->last;
     render->first = kind == PICTURES_PNG ? until : recorded->first;
-    render->interval = kind == PICTURES_PNG ? 0 : 1 / args->fps;
+    render->interval = kind == PICTURES_PNG ? 0 : 1 / own->fps;
     if (kind == PICTURES_PNG)
         render->wanted = 1;
-    else if (args->frames > 0)
-        render->wanted = (size_t)args->frames;
+    else if (own->frames > 0)
+        render->wanted = (size_t)own->frames;
     else
-        render->wanted = (size_t)fmin(fmax(ceil((until - recorded->first) * args->fps - 1e-6), 1), 1e7);
+        render->wanted = (size_t)fmin(fmax(ceil((until - recorded->first) * own->fps - 1e-6), 1), 1e7);
     const double end = recorded->last + 1e-9 * fmax(fabs(recorded->last), 1),
                  last = render->first + render->interval * (double)(render->wanted - 1);
-    if (args->time_given && args->time > end)
+    if (args_given(args, "--time") && args->time > end)
         return error_set(error, "%s: ends at %.9g s, before --time %.9g", recorded->path, recorded->last,
                          args->time);
-    return args->frames == 0 || last <= end ||
+    return own->frames == 0 || last <= end ||
            error_set(error, "%s: ends at %.9g s; the last of --frames %d would be at %.9g s", recorded->path,
-                     recorded->last, (int)args->frames, last);
+                     recorded->last, (int)own->frames, last);
 }
 
 /* Finds the view's run: the run of an earlier panel, or a new one. */
@@ -104,7 +104,7 @@ static bool find_run(FileRender *render, int panel, Notes *notes, Error *error)
 {
     const ViewDef *view = scene_view(&render->scene, panel);
     render->run_of[panel] = 0;
-    if (!*view->file)
+    if (!view->file)
         return recorded_has(&render->runs[0].recorded, view, error);
     for (int i = 0; i < panel; i++)
         if (compare_is_same(scene_view(&render->scene, i), view)) {
@@ -144,7 +144,7 @@ static bool understand(FileRender *render, PicturesKind *kind, Error *error)
     if (!find_runs(render, &notes, error) || !choose_times(render, recorded, *kind, error))
         return false;
     notes_print(&notes, stderr);
-    if (args->time_given && args->frames > 0)
+    if (args_given(args, "--time") && options_of_render(args)->frames > 0)
         fprintf(stderr, "--time %.9g has no effect: --frames says how long it lasts\n", args->time);
     return true;
 }
@@ -189,13 +189,13 @@ static bool open_all(FileRender *render, Error *error)
     }
     if (!(render->context = headless_create(args->gpu, error)))
         return false;
-    fprintf(stderr, "renderer: %s\n", headless_renderer(render->context));
+    renderer_tell(headless_renderer(render->context));
     return open_prefetches(render, error) &&
            (render->panels = panels_create(subjects, count, args->width, args->height, error)) &&
            (image_create(&render->image, args->width, args->height) ||
             error_set(error, "out of memory for a picture of %d x %d", args->width, args->height)) &&
-           (render->pictures =
-                pictures_create(args->output, args->width, args->height, args->fps, render->wanted, error));
+           (render->pictures = pictures_create(args->output, args->width, args->height,
+                                               options_of_render(args)->fps, render->wanted, error));
 }
 
 static void close_all(FileRender *render)
@@ -389,11 +389,10 @@ static int show(FileRender *render, Error *error)
 
 int render_file(const Args *args)
 {
-    static FileRender render;
+    FileRender render = {.args = args, .began_ms = wall_ms()};
     Error error = {{0}};
     PicturesKind kind;
     int code = EXIT_USAGE;
-    render = (FileRender){.args = args, .began_ms = wall_ms()};
     interrupt_install();
     if (!understand(&render, &kind, &error)) {
         fprintf(stderr, "%s\n", error.message);
@@ -435,7 +434,7 @@ static bool check_session_options(const Args *args, Error *error)
         return refuse_option(args, "--device", "all that moved the box is in the session", error);
     if (args->sweep_count > 0)
         return refuse_option(args, "--compare", "the session has one setting", error);
-    if (args->interpolate)
+    if (options_of_render(args)->interpolate)
         return refuse_option(args, "--interpolate", "pictures are of the states that the session had", error);
     return recording_play_allows(args->scenes[0], &args->settings, error);
 }
@@ -443,34 +442,36 @@ static bool check_session_options(const Args *args, Error *error)
 static bool choose_session_times(SessionRender *render, Error *error)
 {
     const Args *args = render->args;
+    const RenderOptions *own = options_of_render(args);
     if (!pictures_kind(args->output, &render->kind, error))
         return false;
-    if (render->kind == PICTURES_PNG && args->frames > 0)
+    if (render->kind == PICTURES_PNG && own->frames > 0)
         return error_set(error, "--frames makes no sense for one picture, %s", args->output);
-    render->until = args->time_given ? args->time : INFINITY;
-    render->wanted = render->kind == PICTURES_PNG ? 1 : (size_t)args->frames;
-    if (render->wanted == 0 && args->time_given)
-        render->wanted = (size_t)fmax(ceil(args->time * args->fps - 1e-6), 1);
+    render->until = args_given(args, "--time") ? args->time : INFINITY;
+    render->wanted = render->kind == PICTURES_PNG ? 1 : (size_t)own->frames;
+    if (render->wanted == 0 && args_given(args, "--time"))
+        render->wanted = (size_t)fmax(ceil(args->time * own->fps - 1e-6), 1);
     return true;
 }
 
 /* Returns the time of the next picture, s. */
 static double next_time(const SessionRender *render)
 {
-    return render->kind == PICTURES_PNG ? render->until : (double)render->taken / render->args->fps;
+    return render->kind == PICTURES_PNG ? render->until
+                                        : (double)render->taken / options_of_render(render->args)->fps;
 }
 
 /* Opens the shoot, without panels beside the scene: their states were not recorded. */
 static bool open_shoot(SessionRender *render, Error *error)
 {
-    const Scene *scene = &render->session.scene;
+    const Scene *scene = &render->session.run.scene;
     PicturePanel panels[PANELS_MAX];
     int count = 0;
     panel_pictures_close(&render->panel_pictures);
     for (int i = 0; i < scene_view_count(scene); i++)
         if (!compare_is_other(scene_view(scene, i)))
             panels[count++] = (PicturePanel){.session = &render->session, .view = scene_view(scene, i)};
-    render->world = render->session.world;
+    render->world = render->session.run.world;
     return count > 0 ? panel_pictures_open(&render->panel_pictures, panels, count, false, render->args->width,
                                            render->args->height, error)
                      : error_set(error, "%s: no view shows the session itself", render->args->scenes[0]);
@@ -478,8 +479,8 @@ static bool open_shoot(SessionRender *render, Error *error)
 
 static bool take_picture(SessionRender *render, Error *error)
 {
-    if ((render->world != render->session.world && !open_shoot(render, error)) ||
-        !panel_pictures_take(&render->panel_pictures, render->session.info.time, error) ||
+    if ((render->world != render->session.run.world && !open_shoot(render, error)) ||
+        !panel_pictures_take(&render->panel_pictures, render->session.run.info.time, error) ||
         !panel_pictures_draw(&render->panel_pictures, error))
         return false;
     do {
@@ -514,7 +515,7 @@ static bool is_over(SessionRender *render)
 /* Takes a picture of the last state, if there is none yet. */
 static bool take_last(SessionRender *render, Error *error)
 {
-    render->hash = world_hash(render->session.world);
+    render->hash = world_hash(render->session.run.world);
     return render->taken > 0 || take_picture(render, error);
 }
 
@@ -527,7 +528,7 @@ static bool simulate(SessionRender *render, Error *error)
             return false;
         if (is_over(render))
             return take_last(render, error);
-        if (render->world == session->world &&
+        if (render->world == session->run.world &&
             !panel_pictures_watch(&render->panel_pictures, session, next_time(render), error))
             return false;
         if (!session_substep(session, error)) {
@@ -539,7 +540,7 @@ static bool simulate(SessionRender *render, Error *error)
             return take_last(render, error);
         }
         const double whole = render->wanted > 0 ? (double)render->taken / (double)render->wanted : 0;
-        progress_update(&render->progress, fmax((double)session->info.step / steps, whole));
+        progress_update(&render->progress, fmax((double)session->run.info.step / steps, whole));
     }
 }
 
@@ -564,8 +565,8 @@ static bool write_json(const SessionRender *render, Error *error)
     json_t *json = json_pack(
         "{s:s, s:s, s:s, s:I, s:I, s:I, s:f, s:f, s:s, s:b, s:b, s:s}", "command", "render", "recording",
         render->play.path, "output", render->args->output, "pictures", (json_int_t)render->taken, "particles",
-        (json_int_t)session->info.count, "steps", (json_int_t)session->info.step, "simulated_seconds",
-        session->info.time, "wall_seconds", 1e-3 * (wall_ms() - session->began_ms), "hash", hash, "same",
+        (json_int_t)session->run.info.count, "steps", (json_int_t)session->run.info.step, "simulated_seconds",
+        session->run.info.time, "wall_seconds", 1e-3 * (wall_ms() - session->began_ms), "hash", hash, "same",
         render->ended && recording_play_same(&render->play, render->hash), "stopped", interrupted(),
         "renderer", headless_renderer(session->context));
     const bool written = json_file_write(json, render->args->json, error);
@@ -596,18 +597,18 @@ static int finish_session(SessionRender *render, Error *error)
         return fail_session(render, EXIT_FAILED, error);
     if (!args->quiet)
         fprintf(stderr, "%s: %zu picture%s up to t = %.4g s, %zu particle%s, from %s\n", args->output,
-                render->taken, plural(render->taken), render->session.info.time, render->session.info.count,
-                plural(render->session.info.count), args->scenes[0]);
+                render->taken, plural(render->taken), render->session.run.info.time,
+                render->session.run.info.count, plural(render->session.run.info.count), args->scenes[0]);
     const int code = judge(render);
     return write_json(render, error) ? code : fail_session(render, EXIT_FAILED, error);
 }
 
-static int shoot_film(SessionRender *render, Error *error)
+static int render_recorded_run(SessionRender *render, Error *error)
 {
     const Args *args = render->args;
     if ((args->json && !json_file_check(args->json, error)) || !open_shoot(render, error) ||
-        !(render->pictures =
-              pictures_create(args->output, args->width, args->height, args->fps, render->wanted, error)))
+        !(render->pictures = pictures_create(args->output, args->width, args->height,
+                                             options_of_render(args)->fps, render->wanted, error)))
         return fail_session(render, EXIT_FAILED, error);
     progress_begin(&render->progress, stderr, "render", args->quiet);
     const bool done = simulate(render, error);
@@ -632,12 +633,11 @@ static int open_recording(SessionRender *render, Error *error)
 
 int render_session(const Args *args)
 {
-    static SessionRender render;
+    SessionRender render = {.args = args};
     Error error = {{0}};
-    render = (SessionRender){.args = args};
     interrupt_install();
     int code = open_recording(&render, &error);
-    code = code == 0 ? shoot_film(&render, &error) : fail_session(&render, code, &error);
+    code = code == 0 ? render_recorded_run(&render, &error) : fail_session(&render, code, &error);
     pictures_discard(render.pictures);
     panel_pictures_close(&render.panel_pictures);
     session_close(&render.session);

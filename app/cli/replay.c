@@ -1,6 +1,7 @@
 #include "app/base/file.h"
 #include "app/base/program.h"
 #include "app/cli/cli_private.h"
+#include "app/cli/option_rows.h"
 #include "app/run/session.h"
 
 #include <inttypes.h>
@@ -50,7 +51,7 @@ static int simulate(Replay *replay, Progress *progress, Error *error)
             replay->broke = replay->ended = recording_play_broke(&replay->play, session);
             return replay->broke ? 0 : EXIT_FAILED;
         }
-        progress_update(progress, (double)session->info.step / (double)replay->recording.steps);
+        progress_update(progress, (double)session->run.info.step / (double)replay->recording.steps);
     }
 }
 
@@ -62,8 +63,8 @@ static bool same_bits(const Replay *replay)
 static bool write_json(const Replay *replay, Error *error)
 {
     const Session *session = &replay->session;
-    const WorldInfo *info = &session->info;
-    const WorldDef *def = &session->scene.world;
+    const WorldInfo *info = &session->run.info;
+    const WorldDef *def = &session->run.scene.world;
     char hash[17], recorded[17];
     if (!replay->args->json)
         return true;
@@ -72,7 +73,7 @@ static bool write_json(const Replay *replay, Error *error)
     json_t *json = json_pack(
         "{s:s, s:s, s:s, s:s, s:s, s:s, s:i, s:I, s:I, s:I, s:f, s:f, s:s, s:s*, s:b, s:b}", "command",
         "replay", "recording", replay->path, "program", replay->recording.program, "scene",
-        session->scene.path, "backend", def->backend, "method", def->method, "threads", info->threads,
+        session->run.scene.path, "backend", def->backend, "method", def->method, "threads", info->threads,
         "particles", (json_int_t)info->count, "steps", (json_int_t)info->step, "commands",
         (json_int_t)replay->play.next, "simulated_seconds", info->time, "wall_seconds",
         (wall_ms() - session->began_ms) / 1000, "hash", hash, "recorded_hash",
@@ -84,7 +85,7 @@ static bool write_json(const Replay *replay, Error *error)
 
 static int finish(Replay *replay, Error *error)
 {
-    replay->hash = world_hash(replay->session.world);
+    replay->hash = world_hash(replay->session.run.world);
     if (replay->series.file && !replay->args->quiet)
         fprintf(stderr, "%s: %zu snapshot%s\n", replay->args->output, snapshot_steps(replay->series.file),
                 plural(snapshot_steps(replay->series.file)));
@@ -101,7 +102,7 @@ static void tell_what_lacks(const Replay *replay)
     static const char *const words[] = {"what was done to solids", "the box's new size",
                                         "when poured fluid came"};
     bool lacks[3] = {false};
-    int told = 0;
+    int differences = 0;
     for (size_t i = 0; i < replay->recording.count; i++) {
         const SimCommand *command = &replay->recording.commands[i];
         lacks[0] |= command->kind == SIM_SOLID;
@@ -111,11 +112,11 @@ static void tell_what_lacks(const Replay *replay)
     for (int k = 0; k < 3; k++) {
         if (!lacks[k])
             continue;
-        if (told == 0)
+        if (differences == 0)
             fprintf(stderr, "%s: warning: only the recording has ", replay->args->output);
-        fprintf(stderr, "%s%s", told++ > 0 ? ", " : "", words[k]);
+        fprintf(stderr, "%s%s", differences++ > 0 ? ", " : "", words[k]);
     }
-    if (told > 0)
+    if (differences > 0)
         fputc('\n', stderr);
 }
 
@@ -126,10 +127,10 @@ static int run(Replay *replay, Error *error)
     if (args->json && !json_file_check(args->json, error))
         return fail(EXIT_FAILED, error);
     if (args->output) {
-        SnapshotWriter *file = snapshot_create(args->output, &replay->session.scene, error);
+        SnapshotWriter *file = snapshot_create(args->output, &replay->session.run.scene, error);
         if (!file)
             return fail_run(args, EXIT_FAILED, error);
-        replay->series = (SnapshotSeries){.file = file, .every = args->every};
+        replay->series = (SnapshotSeries){.file = file, .every = options_of_run(args)->every};
         tell_what_lacks(replay);
     }
     progress_begin(&progress, stderr, "replay", args->quiet);
@@ -153,7 +154,7 @@ static int open_recording(Replay *replay, Error *error)
     return recording_play_open(&replay->play, &args->settings, args->gpu, false, &replay->session, error);
 }
 
-int cmd_replay(const Args *args)
+static int run_command(const Args *args)
 {
     Replay replay = {.args = args, .path = args->scenes[0]};
     Error error = {{0}};
@@ -165,3 +166,25 @@ int cmd_replay(const Args *args)
     recording_destroy(&replay.recording);
     return code;
 }
+
+/* clang-format off */
+static const OptionRow options[] = {
+    ROW_OUTPUT_FILE,
+    ROW_EVERY(RunOptions),
+    ROWS_PROCESSOR, ROW_GPU, ROW_SHADERS, ROW_DEVICE_REFUSED("all that moved the box is in the recorded session"),
+    ROW_JSON, ROWS_END
+};
+/* clang-format on */
+
+const Command command_replay = {
+    .name = "replay",
+    .usage = "FILE [OPTIONS]",
+    .help = "a recorded session again, and whether it gives the same bits",
+    .takes = "recording",
+    .takes_min = 1,
+    .takes_max = 1,
+    .own_size = sizeof(RunOptions),
+    .argument_files = files_recording,
+    .options = options,
+    .run = run_command,
+};

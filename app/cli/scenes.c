@@ -1,8 +1,8 @@
 #include "app/base/file.h"
-#include "app/base/output.h"
 #include "app/base/program.h"
 #include "app/cli/cli_private.h"
-#include "app/window/scene_browser.h"
+#include "app/cli/option_rows.h"
+#include "app/window/play.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -127,64 +127,64 @@ static bool save(const Image *image, const char *path, Error *error)
 }
 
 /* Makes a picture. A broken scene gets no picture; a failed write ends the command. */
-static bool make(ThumbnailFolder *gallery, const SceneRow *row, Error *error)
+static bool make(ThumbnailFolder *folder, const SceneRow *row, Error *error)
 {
     char path[1024];
     Image image = {0};
     Error why = {{0}};
-    if (!thumbnail_path(gallery->folder, row->name, path))
-        return error_set(error, "%.300s: the path is too long", gallery->folder);
+    if (!thumbnail_path(folder->folder, row->name, path))
+        return error_set(error, "%.300s: the path is too long", folder->folder);
     if (thumbnail_is_new(path, row->path)) {
-        gallery->kept++;
+        folder->kept++;
         return true;
     }
-    if (!thumbnail_make(row->path, gallery->context, &image, &why)) {
+    if (!thumbnail_make(row->path, folder->context, &image, &why)) {
         fprintf(stderr, "%s: no picture: %s\n", row->name, why.message);
-        gallery->failed++;
+        folder->failed++;
         return true;
     }
     const bool saved = save(&image, path, error);
     image_destroy(&image);
-    gallery->made += saved;
+    folder->made += saved;
     return saved;
 }
 
-static bool make_all(ThumbnailFolder *gallery, bool quiet, Error *error)
+static bool make_all(ThumbnailFolder *folder, bool quiet, Error *error)
 {
     Progress progress;
     bool ok = true;
     progress_begin(&progress, stderr, "scenes", quiet);
-    for (int i = 0; ok && i < gallery->list->count && !interrupted(); i++) {
-        ok = make(gallery, &gallery->list->rows[i], error);
-        progress_update(&progress, (i + 1.0) / gallery->list->count);
+    for (int i = 0; ok && i < folder->list->count && !interrupted(); i++) {
+        ok = make(folder, &folder->list->rows[i], error);
+        progress_update(&progress, (i + 1.0) / folder->list->count);
     }
     progress_end(&progress);
     return ok;
 }
 
-static int write_gallery(const Args *args, const SceneList *list, Error *error)
+static int write_folder_page(const Args *args, const SceneList *list, Error *error)
 {
-    ThumbnailFolder gallery = {.list = list, .folder = args->output};
+    ThumbnailFolder folder = {.list = list, .folder = args->output};
     interrupt_install();
     if (mkdir(args->output, 0777) != 0 && errno != EEXIST) {
         error_set(error, "%.300s: the folder cannot be made (%s)", args->output, strerror(errno));
         return fail(EXIT_FAILED, error);
     }
-    gallery.context = headless_create(args->gpu, error);
-    if (!gallery.context)
+    folder.context = headless_create(args->gpu, error);
+    if (!folder.context)
         return fail(EXIT_FAILED, error);
-    fprintf(stderr, "renderer: %s\n", headless_renderer(gallery.context));
-    const bool ok = make_all(&gallery, args->quiet, error) && write_index(list, args->output, error);
-    headless_destroy(gallery.context);
+    renderer_tell(headless_renderer(folder.context));
+    const bool ok = make_all(&folder, args->quiet, error) && write_index(list, args->output, error);
+    headless_destroy(folder.context);
     if (!ok)
         return fail(EXIT_FAILED, error);
     if (!args->quiet)
         fprintf(stderr, "%s/index.html: %d scene%s, %d picture%s made, %d kept\n", args->output, list->count,
-                list->count == 1 ? "" : "s", gallery.made, gallery.made == 1 ? "" : "s", gallery.kept);
-    return interrupted() ? EXIT_INTERRUPTED : gallery.failed ? EXIT_FAILED : 0;
+                list->count == 1 ? "" : "s", folder.made, folder.made == 1 ? "" : "s", folder.kept);
+    return interrupted() ? EXIT_INTERRUPTED : folder.failed ? EXIT_FAILED : 0;
 }
 
-int cmd_scenes(const Args *args)
+static int run_command(const Args *args)
 {
     Error error = {{0}};
     SceneList list;
@@ -194,9 +194,26 @@ int cmd_scenes(const Args *args)
     if (args->json && !write_json(&list, args->json, &error))
         code = fail(EXIT_FAILED, &error);
     else if (args->output)
-        code = write_gallery(args, &list, &error);
+        code = write_folder_page(args, &list, &error);
     else if (!args->quiet && !(args->json && json_is_stream(args->json)))
         print_list(&list);
     scene_list_free(&list);
     return code;
 }
+
+/* clang-format off */
+static const OptionRow options[] = {
+    ROW_OUTPUT("FOLDER", .files = files_replaced, .pattern = "*.@(png|html)", .help = "a folder for a small picture of each scene, and for index.html, which shows them all; a picture that is newer than its scene is kept"),
+    ROW_GPU, ROW_JSON, ROWS_END
+};
+/* clang-format on */
+
+const Command command_scenes = {
+    .name = "scenes",
+    .usage = "[FOLDER] [-o FOLDER] [OPTIONS]",
+    .help = "lists the scenes that come with slosh, or those of a folder; with -o also as pictures",
+    .takes = "folder",
+    .takes_max = 1,
+    .options = options,
+    .run = run_command,
+};

@@ -1,33 +1,41 @@
 #include "app/lab/stability.h"
-#include "app/base/file.h"
-#include "app/base/output.h"
-#include "app/base/program.h"
-#include "app/bench/gnuplot.h"
 #include "app/cli/cli_private.h"
+#include "app/cli/option_rows.h"
 
 #include <string.h>
 
-static bool check_outputs(const StablePlan *plan, StableRows *rows, Error *error)
+typedef struct StabilityState {
+    StablePlan plan;
+    StableMap map;
+} StabilityState;
+
+static bool stability_plan(ExperimentRun *run, Error *error)
 {
-    const Args *args = plan->args;
-    return gnuplot_check(args->output, error) && output_check(args->output, error) &&
-           output_check(plan->csv, error) && (!args->json || json_file_check(args->json, error)) &&
-           stable_rows_read(rows, plan->csv, stderr, error);
+    StabilityState *state = run->state;
+    return experiment_name_files(run, error) && stable_plan_make(run->args, &state->plan, error);
 }
 
 /* Reports facts known before any trial. */
-static void say_plan(const StablePlan *plan, const StableRows *rows)
+static void say_plan(const ExperimentRun *run, const StablePlan *plan)
 {
-    const int cells = stable_cells(plan);
+    const int cells = stable_cells(plan), there = run->file.count;
     notes_print(&plan->notes, stderr);
-    if (plan->args->quiet)
+    if (run->args->quiet)
         return;
     fprintf(stderr,
             "%d cell%s of %.3g s each; steps of mode fixed, each a frame; the first trouble ends a trial\n",
             cells, plural((size_t)cells), plan->time);
-    if (rows->count > 0)
-        fprintf(stderr, "%zu trial%s in %s already\n", rows->count, rows->count == 1 ? " is" : "s are",
-                plan->csv);
+    if (there > 0)
+        fprintf(stderr, "%d trial%s in %s already\n", there, there == 1 ? " is" : "s are", run->csv);
+}
+
+static bool stability_run(ExperimentRun *run, Error *error)
+{
+    const StabilityState *state = run->state;
+    say_plan(run, &state->plan);
+    const bool ok = stable_run(&state->plan, &run->file, run->csv, error);
+    run->there = run->file.count;
+    return ok;
 }
 
 /* Reports findings not visible in the map. */
@@ -58,57 +66,65 @@ static bool say_findings(const StableMap *map, Error *error)
     return true;
 }
 
-static bool finish(const StablePlan *plan, const StableRows *rows, bool *told, Error *error)
+static bool stability_report(ExperimentRun *run, Error *error)
 {
-    StableMap map;
-    const Args *args = plan->args;
-    if (!stable_map_make(plan, rows, &map, error))
+    StabilityState *state = run->state;
+    if (!stable_map_make(&state->plan, &run->file, &state->map, error))
         return false;
-    if (!args->quiet)
-        stable_print(&map, stdout);
-    bool ok = say_findings(&map, error) && stable_draw(&map, args->output, error);
-    if (args->json) {
-        Error none;
-        *told = true;
-        const bool written = stable_write_json(&map, ok ? NULL : error->message, args->json, &none);
-        if (ok && !written)
-            *error = none;
-        ok = ok && written;
-    }
-    stable_map_free(&map);
-    return ok;
+    run->has_figures = true;
+    if (!run->args->quiet)
+        stable_print(&state->map, stdout);
+    return say_findings(&state->map, error) && stable_draw(&state->map, run->output, error);
 }
 
-static int stability(const StablePlan *plan, StableRows *rows)
+static json_t *stability_json(const ExperimentRun *run, const char *failure)
 {
-    Error error = {{0}}, none;
-    bool told = false;
-    bool ok = check_outputs(plan, rows, &error);
-    if (ok)
-        say_plan(plan, rows);
-    ok = ok && stable_run(plan, rows, &error) && finish(plan, rows, &told, &error);
-    if (interrupted())
-        error_set(&error, "stopped after %zu trials; the same command goes on", rows->count);
-    else if (ok)
-        return 0;
-    fprintf(stderr, "%s\n", error.message);
-    if (plan->args->json && !told && json_file_check(plan->args->json, &none))
-        failure_json_write(failure_json("stability", "scene", plan->scene_name, plan->args->output, &error),
-                           plan->args->json);
-    return interrupted() ? EXIT_INTERRUPTED : EXIT_FAILED;
+    const StabilityState *state = run->state;
+    return stable_json(&state->map, failure);
 }
 
-int cmd_stability(const Args *args)
+static void stability_close(ExperimentRun *run)
 {
-    static StablePlan plan;
-    StableRows rows = {.count = 0};
-    Error error = {{0}};
-    int code = EXIT_USAGE;
-    interrupt_install();
-    if (stable_plan_make(args, &plan, &error))
-        code = stability(&plan, &rows);
-    else
-        fprintf(stderr, "%s\n", error.message);
-    stable_rows_free(&rows);
-    return code;
+    StabilityState *state = run->state;
+    stable_map_free(&state->map);
 }
+
+static const Experiment experiment = {
+    .table = &stable_table,
+    .size = sizeof(StabilityState),
+    .plan = stability_plan,
+    .run = stability_run,
+    .report = stability_report,
+    .json = stability_json,
+    .close = stability_close,
+};
+
+static int run_command(const Args *args)
+{
+    return experiment_run(&experiment, args);
+}
+
+/* clang-format off */
+static const OptionRow options[] = {
+    ROW_OUTPUT("OUT", .files = files_chart, .help = "the map, OUT.svg or OUT.png; its trials in OUT.csv, which a later run goes on with"),
+    {"--axis", "KEY=a:b", OPTION_LIST, OWN(StabilityOptions, axes), .help = "a key of the scene from a to b, at 8 values or, as a:b:n, at n; by factors where that is a decade and more; twice for a map (sound speed and viscosity around the scene's)"},
+    ROW_TIME(0, "simulated seconds of a trial (four times what a fall from the top takes)"),
+    {"--sweep", "KEY=A,B,...", OPTION_SWEEP, AT(sweeps), .help = "method=... or backend=...: a map each, in place of the scene's own"},
+    ROWS_SCENE, ROWS_PROCESSOR, ROW_GPU, ROW_SHADERS, ROW_DEVICE_REFUSED("what is compared moves as the scene says, and no other way"),
+    ROW_JSON, ROWS_END
+};
+/* clang-format on */
+
+const Command command_stability = {
+    .name = "stability",
+    .usage = "SCENE -o OUT.svg|.png [OPTIONS]",
+    .help = "where methods hold and how they fail: the largest step over two keys of a scene",
+    .takes = "scene",
+    .takes_min = 1,
+    .takes_max = 1,
+    .output = "OUT.svg or OUT.png",
+    .own_size = sizeof(StabilityOptions),
+    .argument_files = files_scene,
+    .options = options,
+    .run = run_command,
+};

@@ -1,4 +1,4 @@
-#include "app/cli/sweep.h"
+#include "app/cli/cli_private.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -40,10 +40,6 @@ bool sweep_set(const char *key, const char *value, const char *option, char said
         settings->particles = (size_t)strtod(value, NULL); /* 2e3, too: args.c has looked at it */
         return true;
     }
-    if (settings->count == SCENE_SETTINGS_MAX)
-        return error_set(error, "more than %d settings; write them into the scene file", SCENE_SETTINGS_MAX);
     snprintf(said, SWEEP_SAID, "%s %s=%s", option, key, value);
-    settings->said[settings->count] = said;
-    settings->set[settings->count++] = said + strlen(option) + 1;
-    return true;
+    return scene_settings_add(settings, said, said + strlen(option) + 1, error);
 }

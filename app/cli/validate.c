@@ -1,12 +1,12 @@
-#include "app/bench/validate.h"
 #include "app/base/file.h"
-#include "app/base/output.h"
 #include "app/base/program.h"
+#include "app/bench/bench.h"
 #include "app/bench/cases/case.h"
-#include "app/bench/gnuplot.h"
+#include "app/bench/plot.h"
 #include "app/cli/cli_private.h"
+#include "app/cli/option_rows.h"
 #include "app/run/offscreen.h"
-#include "sim/start/seed.h"
+#include "sim/start/start.h"
 
 #include <errno.h>
 #include <math.h>
@@ -17,6 +17,15 @@
 enum { RUNS_MAX = 128, CASE_NAME_MAX = 32 };
 
 #define PLOT_NAME "%s/%s.svg"
+
+typedef struct ValidateOptions {
+    bool full, coarse; /* finer or coarser than the default set */
+} ValidateOptions;
+
+static const ValidateOptions *own(const Args *args)
+{
+    return args->own;
+}
 
 typedef struct ValidatePlan {
     const Args *args;
@@ -90,7 +99,7 @@ static double work_of(const Case *of, const WorldDef *def)
    that the backend cannot run. */
 static bool plan_keep(ValidatePlan *plan, bool *wants_context, Error *error)
 {
-    static Scene scene;
+    Scene scene;
     int kept = 0;
     *wants_context = false;
     for (int i = 0; i < plan->count; i++) {
@@ -113,11 +122,11 @@ static bool plan_make(const Args *args, ValidatePlan *plan, bool *wants_context,
 {
     bool ok = true;
     *plan = (ValidatePlan){.args = args, .method = chosen_method(&args->settings)};
-    plan->level = args->full ? CASE_FULL : args->coarse ? CASE_COARSE : CASE_DEFAULT;
-    if (args->full && args->coarse)
+    plan->level = own(args)->full ? CASE_FULL : own(args)->coarse ? CASE_COARSE : CASE_DEFAULT;
+    if (own(args)->full && own(args)->coarse)
         return error_set(error, "slosh validate: --full and --coarse exclude each other; leave one out");
     for (const Case *const *at = case_list; ok && args->scene_count == 0 && *at; at++)
-        ok = ((*at)->only_full && !args->full) || add_case(plan, *at, error);
+        ok = ((*at)->only_full && !own(args)->full) || add_case(plan, *at, error);
     for (int i = 0; ok && i < args->scene_count; i++) {
         const Case *of = case_find(args->scenes[i], error);
         ok = of && (is_planned(plan, of) || add_case(plan, of, error));
@@ -250,11 +259,11 @@ static int validate(const ValidatePlan *plan, bool wants_context, Error *error)
     Outcome *outcomes = calloc((size_t)plan->count + 1, sizeof *outcomes);
     const bool can_write = !args->json || json_file_check(args->json, error);
     bool ok = can_write && ((results && outcomes) || error_set(error, "no memory for the results")) &&
-              (!args->output || (gnuplot_check(args->output, error) && make_folder(args->output, error)));
+              (!args->output || (plot_check(args->output, error) && make_folder(args->output, error)));
     if (ok && wants_context)
         ok = (context = headless_create(args->gpu, error)) != NULL;
     if (context)
-        fprintf(stderr, "renderer: %s\n", headless_renderer(context));
+        renderer_tell(headless_renderer(context));
     int code;
     if (ok) {
         const bool ran = run_all(plan, results, outcomes, &done, error);
@@ -270,9 +279,9 @@ static int validate(const ValidatePlan *plan, bool wants_context, Error *error)
     return code;
 }
 
-int cmd_validate(const Args *args)
+static int run_command(const Args *args)
 {
-    static ValidatePlan plan;
+    ValidatePlan plan = {0};
     Error error = {{0}};
     bool wants_context = false;
     interrupt_install();
@@ -281,3 +290,24 @@ int cmd_validate(const Args *args)
     fprintf(stderr, "%s\n", error.message);
     return EXIT_USAGE;
 }
+
+/* clang-format off */
+static const OptionRow options[] = {
+    ROW_OUTPUT("DIR", .files = files_replaced, .pattern = "*.svg", .help = "a folder for a plot a case, with the reference on it"),
+    {"--full", NULL, OPTION_FLAG, OWN(ValidateOptions, full), .help = "finer, for as long as it takes"},
+    {"--coarse", NULL, OPTION_FLAG, OWN(ValidateOptions, coarse), .help = "a glance: few particles, with tolerances of its own"},
+    ROWS_SCENE, ROWS_PROCESSOR, ROW_GPU, ROW_SHADERS, ROW_DEVICE_REFUSED("what is compared moves as the scene says, and no other way"),
+    ROW_JSON, ROWS_END
+};
+/* clang-format on */
+
+const Command command_validate = {
+    .name = "validate",
+    .usage = "[CASE...] [OPTIONS]",
+    .help = "known flows against their references; without a CASE, all",
+    .takes = "case",
+    .takes_max = ARGS_SCENES_MAX,
+    .own_size = sizeof(ValidateOptions),
+    .options = options,
+    .run = run_command,
+};

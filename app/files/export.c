@@ -1,8 +1,7 @@
 #include "app/files/export.h"
 
-#include "app/base/output.h"
+#include "app/base/file.h"
 #include "app/base/program.h"
-#include "app/files/export_formats.h"
 #include "slosh/error.h"
 
 #include <errno.h>
@@ -95,31 +94,31 @@ bool export_index_series(FILE *file, const ExportIndex *index)
     return written && !ferror(file);
 }
 
+/* Closes a stream; NULL, or `written` false: writing failed, for the reason in errno. */
+static bool close_file(FILE *file, bool written, const char *path, Error *error)
+{
+    int reason = errno;
+    if (file && fclose(file) != 0 && written) {
+        reason = errno;
+        written = false;
+    }
+    return written || error_set(error, "%s: cannot be written: %s", path, strerror(reason));
+}
+
+bool export_content_write(const ExportFormat *format, const ExportContent *content, const char *name,
+                          const char *path, Error *error)
+{
+    FILE *file = fopen(name, "wb");
+    return close_file(file, file && (format->each ? format->each : format)->write(file, content), path,
+                      error);
+}
+
 typedef struct SeriesFiles {
     Output index;
     OutputFolder folder;
-    double *times; /* of each file, s */
+    char extension[32]; /* of each file: ".vtp"; the folder points to it */
+    double *times;      /* of each file, s */
 } SeriesFiles;
-
-typedef bool IndexWriter(FILE *file, const ExportIndex *index);
-
-static const struct {
-    const char *extension;
-    IndexWriter *write;
-} indices[] = {
-    {".pvd", export_index_pvd}, {".ply.series", export_index_series}, {".obj.series", export_index_series}};
-
-/* Finds the index format by the ending of the name; the first format for unknown endings. */
-static size_t index_of(const char *path)
-{
-    const size_t length = strlen(path);
-    for (size_t k = 0; k < sizeof indices / sizeof *indices; k++) {
-        const size_t end = strlen(indices[k].extension);
-        if (length > end && strcasecmp(path + length - end, indices[k].extension) == 0)
-            return k;
-    }
-    return 0;
-}
 
 /* Begins both outputs; the folder's name is the index's name without extension. */
 static bool begin(SeriesFiles *series, const ExportSeries *job, Error *error)
@@ -127,12 +126,13 @@ static bool begin(SeriesFiles *series, const ExportSeries *job, Error *error)
     char folder[sizeof series->folder.path];
     if (!output_begin(&series->index, job->path, error))
         return false;
-    const size_t length = strlen(job->path) - strlen(indices[index_of(job->path)].extension);
+    const size_t length = strlen(job->path) - strlen(job->format->extension) - 1;
+    snprintf(series->extension, sizeof series->extension, ".%s", job->format->each->extension);
     snprintf(folder, sizeof folder, "%.*s", (int)length, job->path);
     series->times = calloc(job->count + 1, sizeof *series->times);
     if (!series->times)
         return error_set(error, "%s: out of memory for %zu files", job->path, job->count);
-    return output_folder_begin(&series->folder, folder, job->extension, error);
+    return output_folder_begin(&series->folder, folder, series->extension, error);
 }
 
 static bool write_files(SeriesFiles *series, const ExportSeries *job, Progress *progress, size_t *written,
@@ -140,7 +140,7 @@ static bool write_files(SeriesFiles *series, const ExportSeries *job, Progress *
 {
     for (*written = 0; *written < job->count && !(*written > 0 && interrupted());) {
         char name[1088], path[sizeof series->folder.temp + sizeof name];
-        export_index_name(series->folder.path, *written, job->count, job->extension, name, sizeof name);
+        export_index_name(series->folder.path, *written, job->count, series->extension, name, sizeof name);
         snprintf(path, sizeof path, "%s/%s", series->folder.temp, name);
         if (!job->write(job->user, *written, path, &series->times[*written], error))
             return false;
@@ -153,19 +153,13 @@ static bool write_index(const SeriesFiles *series, const ExportSeries *job, size
 {
     FILE *file = fopen(series->index.temp, "wb");
     const ExportIndex index = {.folder = series->folder.path,
-                               .extension = job->extension,
+                               .extension = series->extension,
                                .count = count,
                                .of = job->count,
                                .times = series->times,
                                .part_count = job->part_count,
                                .parts = job->parts};
-    bool written = file && indices[index_of(job->path)].write(file, &index);
-    int reason = errno;
-    if (file && fclose(file) != 0 && written) {
-        reason = errno;
-        written = false;
-    }
-    return written || error_set(error, "%s: cannot be written: %s", job->path, strerror(reason));
+    return close_file(file, file && job->format->index(file, &index), job->path, error);
 }
 
 bool export_series_write(const ExportSeries *job, Progress *progress, size_t *written, Error *error)
@@ -185,66 +179,6 @@ typedef struct Meshes {
     int count;
     Surface mesh[EXPORT_PARTS_MAX];
 } Meshes;
-
-static const Named kinds[] = {
-    [EXPORT_PVD] = {"pvd", "all snapshots for ParaView: an index, and a folder with a .vtp for each"},
-    [EXPORT_VTP] = {"vtp", "one snapshot for ParaView"},
-    [EXPORT_PLY] = {"ply", "one snapshot as a point cloud or a mesh: Blender, MeshLab, CloudCompare"},
-    [EXPORT_PLY_SERIES] = {"ply.series", "all snapshots: an index, and a folder with a .ply for each"},
-    [EXPORT_OBJ] = {"obj", "one snapshot's surface as a mesh: Blender, Houdini"},
-    [EXPORT_OBJ_SERIES] = {"obj.series",
-                           "all snapshots' surfaces: an index, and a folder with a .obj for each"},
-    {0},
-};
-
-const Named *export_kinds(void)
-{
-    return kinds;
-}
-
-/* True if the file is named SOMETHING.EXTENSION. */
-static bool has_extension(const char *path, const char *extension)
-{
-    const char *slash = strrchr(path, '/');
-    const char *name = slash ? slash + 1 : path;
-    const size_t length = strlen(name), end = strlen(extension);
-    return length > end + 1 && name[length - end - 1] == '.' &&
-           strcasecmp(name + length - end, extension) == 0;
-}
-
-bool export_kind(const char *path, ExportKind *kind, Error *error)
-{
-    for (int k = 0; kinds[k].name; k++)
-        if (has_extension(path, kinds[k].name)) {
-            *kind = (ExportKind)k;
-            return true;
-        }
-    return error_set(error,
-                     "cannot tell the format from '%s'; use .pvd, .vtp or .ply, .obj for a surface, or "
-                     ".ply.series or .obj.series for all snapshots",
-                     path);
-}
-
-bool export_is_series(ExportKind kind)
-{
-    return kind == EXPORT_PVD || kind == EXPORT_PLY_SERIES || kind == EXPORT_OBJ_SERIES;
-}
-
-bool export_is_obj(ExportKind kind)
-{
-    return kind == EXPORT_OBJ || kind == EXPORT_OBJ_SERIES;
-}
-
-bool export_is_colored(ExportKind kind)
-{
-    return kind != EXPORT_PVD && kind != EXPORT_VTP;
-}
-
-/* True if a snapshot's file is a .ply. */
-static bool is_ply(const Export *export)
-{
-    return export->kind == EXPORT_PLY || export->kind == EXPORT_PLY_SERIES;
-}
 
 /* Reads a step without particles to be left out, which are noted in `flaws`. */
 static bool read_step(const Export *export, size_t index, SnapshotFlaws *flaws, SnapshotStep *step,
@@ -289,27 +223,6 @@ bool export_colors(Export *export, Scalar by, size_t first, size_t count, Error 
     if (colors->low > colors->high) /* no particles */
         colors->low = colors->high = 0;
     return true;
-}
-
-/* ---- files ---- */
-
-/* Closes a stream; `written`: false if writing failed. */
-static bool close_file(const Export *export, FILE *file, bool written, Error *error)
-{
-    int reason = errno;
-    if (fclose(file) != 0 && written) {
-        reason = errno;
-        written = false;
-    }
-    return written || error_set(error, "%s: cannot be written: %s", export->path, strerror(reason));
-}
-
-static FILE *open_file(const Export *export, const char *name, Error *error)
-{
-    FILE *file = fopen(name, "wb");
-    if (!file)
-        error_set(error, "%s: cannot be written: %s", export->path, strerror(errno));
-    return file;
 }
 
 /* ---- the meshes of a snapshot ---- */
@@ -388,48 +301,39 @@ static void free_meshes(Meshes *meshes)
 
 /* ---- one snapshot ---- */
 
+static bool write_file(const Export *export, const char *name, const ExportContent *content, Error *error)
+{
+    return export_content_write(export->format, content, name, export->path, error);
+}
+
 static bool write_particles(const Export *export, const char *name, SnapshotStep *step, Error *error)
 {
+    const ExportFormat *format = export->format->each ? export->format->each : export->format;
     if (export->frame == FRAME_WORLD)
         snapshot_step_to_world(step);
-    if (is_ply(export) && !ply_check(step, error))
-        return false;
-    FILE *file = open_file(export, name, error);
-    if (!file)
-        return false;
-    const bool written = is_ply(export)
-                             ? ply_write(file, step, snapshot_frame_name(export->frame), &export->colors)
-                             : vtp_write(file, step);
-    return close_file(export, file, written, error);
+    const ExportContent content = {.time = step->time,
+                                   .frame = snapshot_frame_name(export->frame),
+                                   .particles = step,
+                                   .colors = &export->colors};
+    return (!format->check || format->check(step, error)) && write_file(export, name, &content, error);
 }
 
-/* Writes all meshes into one file. */
-static bool write_obj(const Export *export, const char *name, const SnapshotStep *step, const Meshes *meshes,
-                      Error *error)
+/* Describes the meshes for a file's writer. */
+static ExportContent describe(const Export *export, const SnapshotStep *step, const Meshes *meshes,
+                              ExportMesh described[EXPORT_PARTS_MAX])
 {
-    FILE *file = open_file(export, name, error);
-    if (!file)
-        return false;
-    ObjFile obj = obj_begin(file, step->time, snapshot_frame_name(export->frame), &export->colors);
     for (int k = 0; k < meshes->count; k++) {
         const int solid = solid_of(export, k);
-        obj_add(&obj, mesh_name(export, k), &meshes->mesh[k],
-                solid < 0 ? &export->colors : &export->solids->solid[solid].color);
+        described[k] =
+            (ExportMesh){.name = mesh_name(export, k),
+                         .solid = solid >= 0,
+                         .mesh = &meshes->mesh[k],
+                         .colors = solid < 0 ? &export->colors : &export->solids->solid[solid].color};
     }
-    return close_file(export, file, obj_end(&obj), error);
-}
-
-static bool write_mesh(const Export *export, const char *name, int number, const Surface *mesh, Error *error)
-{
-    FILE *file = open_file(export, name, error);
-    if (!file)
-        return false;
-    bool written;
-    if (is_ply(export))
-        written = ply_write_surface(file, mesh, snapshot_frame_name(export->frame), &export->colors);
-    else
-        written = solid_of(export, number) < 0 ? vtp_write_surface(file, mesh) : vtp_write_solid(file, mesh);
-    return close_file(export, file, written, error);
+    return (ExportContent){.time = step->time,
+                           .frame = snapshot_frame_name(export->frame),
+                           .mesh_count = meshes->count,
+                           .mesh = described};
 }
 
 /* Writes the particles and each mesh into files of their own; without parts there is only one of these. */
@@ -437,16 +341,30 @@ static bool write_parts(const Export *export, const char *name, SnapshotStep *st
                         Error *error)
 {
     const int first = export->surface ? 0 : 1; /* index of the first mesh's part */
+    ExportMesh described[EXPORT_PARTS_MAX];
+    ExportContent content = describe(export, step, meshes, described);
     if (first > 0 && !write_particles(export, name, step, error))
         return false;
+    content.mesh_count = 1;
     for (int k = 0; k < meshes->count; k++) {
         char own[2048];
         export_part_name(name, export->part_count > 0 ? export->parts[first + k].suffix : "", own,
                          sizeof own);
-        if (!write_mesh(export, export->part_count > 0 ? own : name, k, &meshes->mesh[k], error))
+        content.mesh = &described[k];
+        if (!write_file(export, export->part_count > 0 ? own : name, &content, error))
             return false;
     }
     return true;
+}
+
+/* Writes all meshes into one file. */
+static bool write_meshes(const Export *export, const char *name, const SnapshotStep *step,
+                         const Meshes *meshes, Error *error)
+{
+    ExportMesh described[EXPORT_PARTS_MAX];
+    ExportContent content = describe(export, step, meshes, described);
+    content.colors = &export->colors;
+    return write_file(export, name, &content, error);
 }
 
 static bool write_snapshot(Export *export, size_t index, const char *name, Error *error)
@@ -457,8 +375,9 @@ static bool write_snapshot(Export *export, size_t index, const char *name, Error
         return false;
     export->particles = step.count;
     export->time = step.time;
-    const bool written = make_meshes(export, &step, &meshes, error) &&
-                         (export_is_obj(export->kind) ? write_obj(export, name, &step, &meshes, error)
+    const bool written =
+        make_meshes(export, &step, &meshes, error) &&
+        ((export->format->holds & EXPORT_MESHES) != 0 ? write_meshes(export, name, &step, &meshes, error)
                                                       : write_parts(export, name, &step, &meshes, error));
     free_meshes(&meshes);
     snapshot_step_free(&step);
@@ -487,11 +406,11 @@ static void add_part(Export *export, const char *name, const char *kind, int num
         snprintf(part->suffix, sizeof part->suffix, "-%s%d", kind, number);
 }
 
-/* Names the parts of a .pvd; without solids and surfaces of each fluid there is one file per time. */
+/* Names the parts of an index; without solids and surfaces of each fluid there is one file per time. */
 static void name_parts(Export *export)
 {
     const bool each = export->surface && export->surface->each;
-    if (export->kind != EXPORT_PVD || (!export->solids && !each))
+    if (!export->format->has_parts || (!export->solids && !each))
         return;
     if (!export->surface)
         add_part(export, "particles", NULL, 0);
@@ -513,9 +432,7 @@ bool export_series(Export *export, Progress *progress, Error *error)
 {
     name_parts(export);
     const ExportSeries job = {.path = export->path,
-                              .extension = export_is_obj(export->kind) ? ".obj"
-                                           : is_ply(export)            ? ".ply"
-                                                                       : ".vtp",
+                              .format = export->format,
                               .count = snapshot_count_steps(export->reader),
                               .part_count = export->part_count,
                               .parts = export->parts,

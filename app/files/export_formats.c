@@ -1,10 +1,11 @@
-#include "app/files/export_formats.h"
-
+#include "app/files/export.h"
 #include "slosh/world.h"
 
+#include <assert.h>
 #include <inttypes.h>
 #include <stdbool.h>
 #include <string.h>
+#include <strings.h>
 
 static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
@@ -280,7 +281,7 @@ bool vtp_write_surface(FILE *file, const Surface *surface)
     return write_all(file, &all);
 }
 
-bool vtp_write_solid(FILE *file, const Surface *solid)
+static bool vtp_write_solid(FILE *file, const Surface *solid)
 {
     const SnapshotStep *step = &solid->vertices;
     Contents all = begin_mesh(solid, "Vectors=\"velocity\" Normals=\"Normals\"");
@@ -289,7 +290,7 @@ bool vtp_write_solid(FILE *file, const Surface *solid)
     return write_all(file, &all);
 }
 
-bool vtp_write_lines(FILE *file, const VtpLines *lines)
+static bool vtp_write_lines(FILE *file, const VtpLines *lines)
 {
     char shown[64];
     Contents all = {.time = lines->time, .points = lines->points, .lines = lines->lines, .shown = shown};
@@ -422,10 +423,25 @@ bool ply_write_surface(FILE *file, const Surface *surface, const char *frame, co
     return !ferror(file);
 }
 
+/* Meshes as Wavefront OBJ, for Blender, Houdini and further programs: text, any number of named meshes per
+   file.
+
+   Each mesh begins with `o NAME` and `g NAME`, as programs read either objects or groups. Vertices are `v
+   x y z`, m, followed by red green blue if coloured (sRGB 0 to 1, like in Blender); normals `vn`;
+   triangles `f`, counter-clockwise seen from outside. y is up. Numbers have all bits of the snapshot. The
+   head has time, frame and units. */
+
 /* After: "Object files (.obj)", Wavefront Technologies, Advanced Visualizer manual, appendix B1; colours
    follow a vertex's position as in MeshLab, Blender and ParaView. */
 
-ObjFile obj_begin(FILE *file, double time, const char *frame, const PointColors *colors)
+/* A file being written. */
+typedef struct ObjFile {
+    FILE *file;
+    size_t vertices; /* written so far: faces count from the file's first vertex */
+} ObjFile;
+
+/* Writes the head, with time (s), `frame`, and the meaning of a colormap. */
+static ObjFile obj_begin(FILE *file, double time, const char *frame, const PointColors *colors)
 {
     fprintf(file, "# slosh, time %.17g s, frame of the %s; places in m, y up\n", time, frame);
     point_colors_print(file, "# ", colors);
@@ -451,7 +467,8 @@ static void print_vertex(FILE *file, const SnapshotStep *step, size_t i, const P
     fputc('\n', file);
 }
 
-void obj_add(ObjFile *obj, const char *name, const Surface *mesh, const PointColors *colors)
+/* Adds a mesh. Blanks and control characters in the name become '_'. */
+static void obj_add(ObjFile *obj, const char *name, const Surface *mesh, const PointColors *colors)
 {
     const PointPainter painter = point_painter(colors);
     const size_t count = mesh->vertices.count, first = obj->vertices + 1;
@@ -470,7 +487,146 @@ void obj_add(ObjFile *obj, const char *name, const Surface *mesh, const PointCol
     obj->vertices += count;
 }
 
-bool obj_end(const ObjFile *obj)
+/* Returns false if the stream failed (see errno). */
+static bool obj_end(const ObjFile *obj)
 {
     return !ferror(obj->file);
+}
+
+/* ---- the formats ---- */
+
+static bool vtp_file(FILE *file, const ExportContent *content)
+{
+    if (content->lines)
+        return vtp_write_lines(file, content->lines);
+    if (content->particles)
+        return vtp_write(file, content->particles);
+    return content->mesh[0].solid ? vtp_write_solid(file, content->mesh[0].mesh)
+                                  : vtp_write_surface(file, content->mesh[0].mesh);
+}
+
+static bool ply_file(FILE *file, const ExportContent *content)
+{
+    if (content->particles)
+        return ply_write(file, content->particles, content->frame, content->colors);
+    return ply_write_surface(file, content->mesh[0].mesh, content->frame, content->mesh[0].colors);
+}
+
+static bool obj_file(FILE *file, const ExportContent *content)
+{
+    ObjFile obj = obj_begin(file, content->time, content->frame, content->colors);
+    for (int k = 0; k < content->mesh_count; k++)
+        obj_add(&obj, content->mesh[k].name, content->mesh[k].mesh, content->mesh[k].colors);
+    return obj_end(&obj);
+}
+
+static const ExportFormat vtp = {.extension = "vtp",
+                                 .help = "one snapshot for ParaView",
+                                 .holds = EXPORT_PARTICLES | EXPORT_MESH | EXPORT_LINES,
+                                 .write = vtp_file};
+
+static const ExportFormat pvd = {
+    .extension = "pvd",
+    .help = "all snapshots for ParaView: an index, and a folder with a .vtp for each",
+    .holds = EXPORT_PARTICLES | EXPORT_MESH,
+    .each = &vtp,
+    .index = export_index_pvd,
+    .has_parts = true};
+
+static const ExportFormat ply = {
+    .extension = "ply",
+    .help = "one snapshot as a point cloud or a mesh: Blender, MeshLab, CloudCompare",
+    .holds = EXPORT_PARTICLES | EXPORT_MESH,
+    .colored = true,
+    .write = ply_file,
+    .check = ply_check};
+
+static const ExportFormat ply_series = {.extension = "ply.series",
+                                        .help = "all snapshots: an index, and a folder with a .ply for each",
+                                        .holds = EXPORT_PARTICLES | EXPORT_MESH,
+                                        .colored = true,
+                                        .each = &ply,
+                                        .index = export_index_series};
+
+static const ExportFormat obj = {.extension = "obj",
+                                 .help = "one snapshot's surface as a mesh: Blender, Houdini",
+                                 .holds = EXPORT_MESH | EXPORT_MESHES,
+                                 .colored = true,
+                                 .write = obj_file};
+
+static const ExportFormat obj_series = {
+    .extension = "obj.series",
+    .help = "all snapshots' surfaces: an index, and a folder with a .obj for each",
+    .holds = EXPORT_MESH | EXPORT_MESHES,
+    .colored = true,
+    .each = &obj,
+    .index = export_index_series};
+
+enum { FORMATS_MAX = 16 };
+
+/* clang-format off */
+
+/* In the order of help and messages; ends with NULL. */
+static const ExportFormat *formats[FORMATS_MAX + 1] = {
+    &pvd,
+    &vtp,
+    &ply,
+    &ply_series,
+    &obj,
+    &obj_series,
+    &slice_vti,
+    &slice_csv,
+    &slice_pvd,
+};
+
+/* clang-format on */
+
+const ExportFormat *export_format_at(int index)
+{
+    return formats[index];
+}
+
+void export_format_add(const ExportFormat *format)
+{
+    int count = 0;
+    while (formats[count])
+        count++;
+    assert(count < FORMATS_MAX);
+    formats[count] = format;
+}
+
+/* True if the file is named SOMETHING.EXTENSION. */
+static bool has_extension(const char *path, const char *extension)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash ? slash + 1 : path;
+    const size_t length = strlen(name), end = strlen(extension);
+    return length > end + 1 && name[length - end - 1] == '.' &&
+           strcasecmp(name + length - end, extension) == 0;
+}
+
+const ExportFormat *export_format_find(const char *path, unsigned what, Error *error)
+{
+    char known[256] = "";
+    const ExportFormat *last = NULL;
+    for (int i = 0; formats[i]; i++) {
+        if ((formats[i]->holds & what) == 0)
+            continue;
+        if (has_extension(path, formats[i]->extension))
+            return formats[i];
+        last = formats[i];
+    }
+    for (int i = 0; error && formats[i]; i++)
+        if ((formats[i]->holds & what) != 0)
+            snprintf(known + strlen(known), sizeof known - strlen(known), "%s.%s",
+                     !*known              ? ""
+                     : formats[i] == last ? " or "
+                                          : ", ",
+                     formats[i]->extension);
+    error_set(error, "cannot tell the format%s from '%s'; use %s",
+              what == EXPORT_SLICE   ? " of a slice"
+              : what == EXPORT_LINES ? " of trails"
+                                     : "",
+              path, known);
+    return NULL;
 }

@@ -5,7 +5,7 @@
 #ifndef APP_FILES_FORCES_LOG_H
 #define APP_FILES_FORCES_LOG_H
 
-#include "app/base/output.h"
+#include "app/base/file.h"
 #include "slosh/world.h"
 
 #include <jansson.h>

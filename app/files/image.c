@@ -1,5 +1,5 @@
 #include "app/files/pictures.h"
-#include "app/scene/scene_files.h"
+#include "app/scene/scene.h"
 #include "app/scene/yaml/yaml.h"
 
 #include <errno.h>
@@ -112,12 +112,12 @@ bool image_read(const char *path, Image *image, Error *error)
     if (!png_image_begin_read_from_file(&png, path))
         return error_set(error, "%.300s: %s", path, png.message);
     png.format = PNG_FORMAT_RGB;
-    const bool room =
+    const bool capacity =
         png.width <= 16384 && png.height <= 16384 && image_create(image, (int)png.width, (int)png.height);
-    if (room && png_image_finish_read(&png, NULL, image->rgb, 0, NULL))
+    if (capacity && png_image_finish_read(&png, NULL, image->rgb, 0, NULL))
         return true;
-    error_set(error, "%.300s: %s", path, room ? png.message : "no memory for the picture");
-    if (room)
+    error_set(error, "%.300s: %s", path, capacity ? png.message : "no memory for the picture");
+    if (capacity)
         image_destroy(image);
     else
         png_image_free(&png);

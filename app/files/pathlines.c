@@ -1,7 +1,6 @@
 #define _GNU_SOURCE /* mremap */
-#include "app/files/pathlines.h"
-
 #include "app/base/program.h"
+#include "app/files/export.h"
 #include "app/scene/yaml/yaml.h"
 #include "sim/base/key_rows.h"
 
@@ -148,29 +147,29 @@ static bool make_file(PathlineRows *rows, const char *beside)
 }
 
 /* Allocates the whole file first: a write into a hole on a full disk would kill the program. */
-static bool map_file(PathlineRows *rows, size_t room)
+static bool map_file(PathlineRows *rows, size_t capacity)
 {
-    errno = posix_fallocate(rows->file, 0, (off_t)room);
+    errno = posix_fallocate(rows->file, 0, (off_t)capacity);
     if (errno != 0)
         return false;
-    void *data = rows->data ? mremap(rows->data, rows->room, room, MREMAP_MAYMOVE)
-                            : mmap(NULL, room, PROT_READ | PROT_WRITE, MAP_SHARED, rows->file, 0);
+    void *data = rows->data ? mremap(rows->data, rows->capacity, capacity, MREMAP_MAYMOVE)
+                            : mmap(NULL, capacity, PROT_READ | PROT_WRITE, MAP_SHARED, rows->file, 0);
     if (data == MAP_FAILED)
         return false;
     rows->data = data;
-    rows->room = room;
+    rows->capacity = capacity;
     return true;
 }
 
 static bool grow(PathlineRows *rows, size_t bytes, const char *beside)
 {
     const bool first = !rows->data;
-    size_t room = first ? ROOM_LEAST : rows->room;
-    while (room < bytes)
-        room *= 2;
+    size_t capacity = first ? ROOM_LEAST : rows->capacity;
+    while (capacity < bytes)
+        capacity *= 2;
     if (first && !make_file(rows, beside))
         return false;
-    const bool mapped = map_file(rows, room);
+    const bool mapped = map_file(rows, capacity);
     if (first && !mapped) {
         const int reason = errno;
         close(rows->file);
@@ -187,7 +186,7 @@ static bool pathline_rows_add(PathlineRows *to, const void *rows, size_t count, 
     const size_t used = to->count * to->row, bytes = count * to->row;
     if (!bytes)
         return true;
-    if (used + bytes > to->room && !grow(to, used + bytes, beside))
+    if (used + bytes > to->capacity && !grow(to, used + bytes, beside))
         return error_set(error,
                          "%s: cannot be written: %s; trails are gathered in files beside it: take a larger "
                          "stride or every",
@@ -203,7 +202,7 @@ static bool pathline_rows_add(PathlineRows *to, const void *rows, size_t count, 
 void pathline_rows_free(PathlineRows *rows)
 {
     if (rows->data) {
-        munmap(rows->data, rows->room);
+        munmap(rows->data, rows->capacity);
         close(rows->file);
     }
     *rows = (PathlineRows){.row = rows->row};
@@ -244,13 +243,13 @@ bool pathlines_step_has_points(const Pathlines *trace, double time)
 
 /* Returns the entry of an id, or a free entry for the id. After: Steele, Lea and Flood, Fast splittable
    pseudorandom number generators, 2014 (its mixing of 64 bits). */
-static PathlineEnd *place_of(PathlineEnd *ends, size_t room, int64_t id)
+static PathlineEnd *place_of(PathlineEnd *ends, size_t capacity, int64_t id)
 {
     uint64_t x = (uint64_t)id;
     x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9U;
     x = (x ^ x >> 27) * 0x94d049bb133111ebU;
     for (size_t at = (size_t)(x ^ x >> 31);; at++) {
-        PathlineEnd *end = &ends[at & (room - 1)];
+        PathlineEnd *end = &ends[at & (capacity - 1)];
         if (!end->used || end->id == id)
             return end;
     }
@@ -259,18 +258,18 @@ static PathlineEnd *place_of(PathlineEnd *ends, size_t room, int64_t id)
 /* Grows the table to keep half of the entries free. */
 static bool make_room(Pathlines *trace, Error *error)
 {
-    const size_t room = trace->ends_room > 0 ? 2 * trace->ends_room : ENDS_LEAST;
-    if (2 * (trace->ends_count + 1) <= trace->ends_room)
+    const size_t capacity = trace->ends_capacity > 0 ? 2 * trace->ends_capacity : ENDS_LEAST;
+    if (2 * (trace->ends_count + 1) <= trace->ends_capacity)
         return true;
-    PathlineEnd *ends = calloc(room, sizeof *ends);
+    PathlineEnd *ends = calloc(capacity, sizeof *ends);
     if (!ends)
         return error_set(error, "out of memory for %zu trails; take a larger stride", trace->ends_count);
-    for (size_t i = 0; i < trace->ends_room; i++)
+    for (size_t i = 0; i < trace->ends_capacity; i++)
         if (trace->ends[i].used)
-            *place_of(ends, room, trace->ends[i].id) = trace->ends[i];
+            *place_of(ends, capacity, trace->ends[i].id) = trace->ends[i];
     free(trace->ends);
     trace->ends = ends;
-    trace->ends_room = room;
+    trace->ends_capacity = capacity;
     return true;
 }
 
@@ -278,10 +277,10 @@ static bool make_room(Pathlines *trace, Error *error)
 
 static bool fill_values(Pathlines *trace, const SnapshotStep *step, Error *error)
 {
-    if (step->count > trace->values_room) {
+    if (step->count > trace->values_capacity) {
         free(trace->values);
         trace->values = malloc(step->count * sizeof *trace->values);
-        trace->values_room = trace->values ? step->count : 0;
+        trace->values_capacity = trace->values ? step->count : 0;
         if (!trace->values)
             return error_set(error, "out of memory for the particles");
     }
@@ -375,7 +374,7 @@ static bool take_particle(Pathlines *trace, const SnapshotStep *step, size_t i, 
         return true;
     if (!make_room(trace, error))
         return false;
-    PathlineEnd *end = place_of(trace->ends, trace->ends_room, step->id[i]);
+    PathlineEnd *end = place_of(trace->ends, trace->ends_capacity, step->id[i]);
     if (end->used && end->step == trace->steps)
         return true; /* duplicate id: only the first particle has the trail */
     if (!end->used) {

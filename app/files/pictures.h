@@ -2,7 +2,7 @@
 #ifndef APP_FILES_PICTURES_H
 #define APP_FILES_PICTURES_H
 
-#include "app/scene/save.h"
+#include "app/scene/scene.h"
 #include "slosh/error.h"
 
 #include <stdbool.h>
@@ -19,7 +19,7 @@ typedef struct Image {
 } Image;
 
 /* The scene embedded in a picture's file as text: PICTURE_SCENE and further keywords
-   (app/scene/scene_files.h). */
+   (app/scene/scene.h). */
 typedef struct ImageText {
     const char *scene; /* YAML of the scene */
     const char *name;  /* name of the scene file, without folders */
@@ -46,10 +46,9 @@ bool image_read(const char *path, Image *image, Error *error);
 
 typedef struct Video Video;
 
-/* Starts ffmpeg. A path with .gif gives a GIF with a palette per picture, at most 50 pictures per second,
-   played in a loop; other paths give an MP4. An odd width or height gets its last column or row twice, as MP4
-   needs even sizes. The file appears under its name when complete. Returns NULL with the reason: not writable
-   (see output_begin), or ffmpeg is missing. */
+/* Starts ffmpeg, for the video format of the path's name; see PictureFormat. The file appears under its name
+   when complete. Returns NULL with the reason: not a name of a video, not writable (see output_begin), too
+   many pictures a second, or ffmpeg is missing. */
 Video *video_create(const char *path, int width, int height, double fps, Error *error);
 
 /* Adds a picture: 3 * width * height bytes of sRGB, rows from the top down. Returns false if ffmpeg has
@@ -67,8 +66,27 @@ void video_discard(Video *video);
 
 typedef enum PicturesKind { PICTURES_PNG, PICTURES_VIDEO, PICTURES_FOLDER } PicturesKind;
 
-/* Kinds: NAME.png; NAME.mp4 or NAME.gif; or a folder: no extension, or a final slash. Returns false for other
-   extensions. */
+/* A format of pictures owns all that names it: one const struct, and a line in the list of app/files/video.c.
+   `render`, its messages and `slosh info` follow. */
+typedef struct PictureFormat {
+    const char *extension; /* without the dot: "png"; "": a folder of PNG files */
+    const char *help;
+    PicturesKind kind;
+    const char *const *encoder; /* of a video: ffmpeg's options after the input, ended by NULL */
+    double fps_max;             /* of a video; 0: any */
+    bool even; /* of a video: width and height must be even, and colours are those of BT.709. An odd width or
+                  height gets its last column or row twice */
+} PictureFormat;
+
+/* The formats, in the order of messages; NULL after the last. */
+const PictureFormat *picture_format_at(int index);
+
+/* Adds a format at the end of the list: for programs with formats of their own. At most 4; each must live as
+   long as the program. */
+void picture_format_add(const PictureFormat *format);
+
+/* The kind of the format of a name: by its extension, or a folder (no extension, or a final slash). False for
+   other extensions. */
 bool pictures_kind(const char *path, PicturesKind *kind, Error *error);
 
 typedef struct Pictures Pictures;
@@ -82,7 +100,7 @@ Pictures *pictures_create(const char *path, int width, int height, double fps, s
 void pictures_embed(Pictures *pictures, const ImageText *text);
 
 /* One more picture, of that size. In a folder each is a whole file of its own, frame_00000.png and so on, or
-   with more digits where there are more; a second one into a PNG is a mistake of the caller. */
+   with more digits where there are more. A second one into a PNG is a mistake of the caller. */
 bool pictures_add(Pictures *pictures, const Image *image, Error *error);
 
 /* Finds the folder's next frame, if left by an earlier, longer run; `frame` gets its path. Returns false if

@@ -1,7 +1,6 @@
 #include "app/files/export.h"
-#include "app/files/export_formats.h"
 #include "app/scene/yaml/yaml.h"
-#include "render/particles/plane.h"
+#include "render/particles/particles.h"
 #include "sim/base/key_rows.h"
 
 #include <inttypes.h>
@@ -139,8 +138,9 @@ static size_t count_of(const SliceTable *table)
     return (size_t)table->wanted.samples[0] * (size_t)table->wanted.samples[1];
 }
 
-bool slice_table_csv(FILE *file, const SliceTable *table)
+static bool csv_file(FILE *file, const ExportContent *content)
 {
+    const SliceTable *table = content->slice;
     const int *samples = table->wanted.samples;
     bool written = fputs("x,y,z,value\n", file) >= 0;
     for (int row = 0; row < samples[1]; row++)
@@ -193,10 +193,28 @@ static bool write_array(FILE *file, const char *name, const float *numbers, size
     return fputs("\n</DataArray>\n", file) >= 0 && !ferror(file);
 }
 
-bool slice_table_vti(FILE *file, const SliceTable *table)
+static bool vti_file(FILE *file, const ExportContent *content)
 {
+    const SliceTable *table = content->slice;
     return write_head(file, table) &&
            write_array(file, scalar_list[table->wanted.scalar].name, table->value, count_of(table)) &&
            write_array(file, "field", table->field, count_of(table)) &&
            fputs("</PointData>\n</Piece>\n</ImageData>\n</VTKFile>\n", file) >= 0 && fflush(file) == 0;
 }
+
+const ExportFormat slice_csv = {.extension = "csv",
+                                .help = "a slice of one snapshot as numbers",
+                                .holds = EXPORT_SLICE,
+                                .write = csv_file};
+
+const ExportFormat slice_vti = {.extension = "vti",
+                                .help = "a slice of one snapshot as an image for ParaView",
+                                .holds = EXPORT_SLICE,
+                                .write = vti_file};
+
+const ExportFormat slice_pvd = {.extension = "pvd",
+                                .help =
+                                    "a slice of all snapshots: an index, and a folder with a .vti for each",
+                                .holds = EXPORT_SLICE,
+                                .each = &slice_vti,
+                                .index = export_index_pvd};

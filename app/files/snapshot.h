@@ -4,8 +4,7 @@
 #define APP_FILES_SNAPSHOT_H
 
 #include "app/scene/scene.h"
-#include "render/particles/derived.h"
-#include "render/particles/upload.h"
+#include "render/particles/particles.h"
 #include "slosh/error.h"
 #include "slosh/state.h"
 #include "slosh/world.h"
@@ -18,11 +17,12 @@
 /* Snapshots: a file of states in the H5Part layout, which ParaView opens as a time series.
 
    Group Step#k (k = 0, 1, ... without a gap) is one state. It has the attribute TimeValue (s) and
-   one-dimensional datasets with a value per particle. Further attributes: the pose and rates of the box,
-   gravity, the step number, `restart` (the WorldNumbers of include/slosh/state.h, which with the particles
-   restart a run) and `complete`, which is written last. All values are in SI units and in the box's frame;
-   pose and rates of the box are in the world's frame. Attributes of the root describe the scene: `settings`
-   has each key as printed by slosh info, `units` the unit of each dataset. */
+   one-dimensional datasets with a value per particle. Further attributes are the pose and rates of the box,
+   gravity, the step number and `restart`: the WorldNumbers of
+   include/slosh/state.h, which with the particles restart a run. The last attribute written is `complete`.
+   All values are in SI units and in the box's frame; pose and rates of the box are in the world's frame.
+   Attributes of the root describe the scene: `settings` has each key as printed by slosh info, `units` the
+   unit of each dataset. */
 
 /* X(dataset, type in memory, field of SnapshotStep): the datasets of a step */
 #define SNAPSHOT_FIELDS(X)                                                                                   \
@@ -109,6 +109,16 @@ void snapshot_close(SnapshotWriter *snapshot);
    file, *busy is true. */
 SnapshotWriter *snapshot_resume(const char *path, const Scene *scene, const char *hand, WorldState *state,
                                 bool *busy, Error *error);
+
+/* Like snapshot_create and snapshot_resume, for several processes that write a common file. `share`
+   (app/files/snapshot_hdf5.h) must outlive the result; NULL: a single process. These functions fail on all
+   processes or on none, like snapshot_append then. Only the first process gets the particles of `state`. */
+struct SnapshotParallel;
+SnapshotWriter *snapshot_create_parallel(const char *path, const Scene *scene,
+                                         const struct SnapshotParallel *share, Error *error);
+SnapshotWriter *snapshot_resume_parallel(const char *path, const Scene *scene, const char *hand,
+                                         const struct SnapshotParallel *share, WorldState *state, bool *busy,
+                                         Error *error);
 
 /* The initial particles of a run, for making the world before loading a later state: the files used at the
    start may be gone. */

@@ -24,17 +24,8 @@ typedef struct SnapshotParallel {
     bool (*agree)(bool ok, Error *error);
     void (*end)(const Error *error);             /* ends all processes, as the rest wait within HDF5 */
     void (*tell)(void *bytes, size_t size);      /* copies the first process' bytes to all */
-    size_t (*held)(void);                        /* count of the process' particles, from world_read */
     size_t (*before)(size_t count, size_t *all); /* count of particles on the processes before, and on all */
 } SnapshotParallel;
-
-/* Like snapshot_create and snapshot_resume; `share` must outlive the result. These functions fail on all
-   processes or on none, as snapshot_append then does. Only the first process gets the particles of
-   `state`. */
-SnapshotWriter *snapshot_create_parallel(const char *path, const Scene *scene, const SnapshotParallel *share,
-                                         Error *error);
-SnapshotWriter *snapshot_resume_parallel(const char *path, const Scene *scene, const SnapshotParallel *share,
-                                         WorldState *state, Error *error);
 
 /* Attribute of the root: the settings of the scene, see scene_print. */
 #define SNAPSHOT_SETTINGS "settings"

@@ -2,7 +2,7 @@
 #ifndef APP_FILES_SNAPSHOT_PRIVATE_H
 #define APP_FILES_SNAPSHOT_PRIVATE_H
 
-#include "app/base/output.h"
+#include "app/base/file.h"
 #include "app/files/snapshot_hdf5.h"
 
 /* ---- names and types in the file ---- */

@@ -14,52 +14,11 @@
 #include <time.h>
 #include <unistd.h>
 
-/* HDF5 keeps its errors per thread, until the next successful call; these notes are per thread too, but
-   stay. */
-static _Thread_local struct {
-    char innermost[256];
-    char system[256]; /* the operating system's message, if an entry quotes one */
-} noted;
-
-static herr_t note_entry(unsigned depth, const H5E_error2_t *entry, void *user)
-{
-    static const char quote[] = "error message = '";
-    const char *system = strstr(entry->desc, quote);
-    (void)user;
-    if (depth == 0 && !noted.innermost[0])
-        snprintf(noted.innermost, sizeof noted.innermost, "%s", entry->desc);
-    if (system && !noted.system[0]) {
-        system += strlen(quote);
-        snprintf(noted.system, sizeof noted.system, "%.*s", (int)strcspn(system, "'"), system);
-    }
-    return 0;
-}
-
-static herr_t on_failure(hid_t stack, void *user)
-{
-    return H5Ewalk2(stack, H5E_WALK_UPWARD, note_entry, user);
-}
-
-void hdf5_note_errors(void)
-{
-    H5dont_atexit();
-    H5Eset_auto2(H5E_DEFAULT, on_failure, NULL);
-    memset(&noted, 0, sizeof noted);
-}
-
-bool hdf5_fail(Error *error, const char *path, const char *what)
-{
-    if (noted.system[0])
-        return error_set(error, "%s: %s: %s", path, what, noted.system);
-    return error_set(error, "%s: %s: %s", path, what,
-                     noted.innermost[0] ? noted.innermost : "unknown reason");
-}
-
 /* Counts steps by the names of their groups, without opening steps. */
 
 /* Marks the existing names among the first `room`; with room 0 only counts names. */
 typedef struct GroupNames {
-    size_t count, room;
+    size_t count, capacity;
     bool *there;
 } GroupNames;
 
@@ -75,7 +34,7 @@ static herr_t look_at_name(hid_t file, const char *name, const H5L_info_t *info,
     if (strcmp(name, own) != 0)
         return 0;
     names->count++;
-    if (index < names->room)
+    if (index < names->capacity)
         names->there[index] = true;
     return 0;
 }
@@ -90,14 +49,14 @@ static bool look(hid_t file, GroupNames *names)
    unreadable. */
 static bool snapshot_count_names(hid_t file, size_t *steps)
 {
-    GroupNames names = {.room = 0};
+    GroupNames names = {.capacity = 0};
     *steps = 0;
     if (!look(file, &names))
         return false;
     names.there = calloc(names.count + 1, sizeof *names.there);
-    names.room = names.there ? names.count : 0;
+    names.capacity = names.there ? names.count : 0;
     const bool read = names.there && look(file, &names);
-    while (read && *steps < names.room && names.there[*steps])
+    while (read && *steps < names.capacity && names.there[*steps])
         ++*steps;
     free(names.there);
     return read;
@@ -284,14 +243,14 @@ size_t snapshot_count_steps(const SnapshotReader *reader)
 }
 
 /* Unreadable groups after the last step. */
-typedef struct Stray {
+typedef struct StrayGroups {
     size_t steps, count; /* complete steps before; stray groups after */
     char first[64];      /* the first stray group by name */
-} Stray;
+} StrayGroups;
 
 static herr_t look_at_link(hid_t file, const char *name, const H5L_info_t *info, void *user)
 {
-    Stray *stray = user;
+    StrayGroups *stray = user;
     char own[32];
     (void)file, (void)info;
     if (strncmp(name, "Step#", 5) != 0)
@@ -307,7 +266,7 @@ static herr_t look_at_link(hid_t file, const char *name, const H5L_info_t *info,
 
 bool snapshot_gap(const SnapshotReader *reader, char words[256])
 {
-    Stray stray = {.steps = reader->steps};
+    StrayGroups stray = {.steps = reader->steps};
     char next[32];
     H5Literate(reader->file, H5_INDEX_NAME, H5_ITER_INC, NULL, look_at_link, &stray);
     snapshot_group_name(reader->steps, next);
@@ -553,10 +512,12 @@ static const char *read_group(hid_t group, SnapshotStep *step, bool shown)
     return NULL;
 }
 
+enum { DATASET_NAME_SIZE = 32 };
+
 /* Name of the scalar's dataset: NAME_0 for NAME_x, and so on. */
-static void dataset_of(Scalar scalar, char name[COLUMN_NAME_SIZE])
+static void dataset_of(Scalar scalar, char name[DATASET_NAME_SIZE])
 {
-    const size_t end = (size_t)snprintf(name, COLUMN_NAME_SIZE, "%s", scalar_name(scalar)) - 1;
+    const size_t end = (size_t)snprintf(name, DATASET_NAME_SIZE, "%s", scalar_name(scalar)) - 1;
     if (name[end - 1] == '_' && name[end] >= 'x')
         name[end] = (char)('0' + name[end] - 'x');
 }
@@ -564,7 +525,7 @@ static void dataset_of(Scalar scalar, char name[COLUMN_NAME_SIZE])
 /* Reads the scalars of methods and terms in the group. */
 static const char *read_shown(hid_t group, SnapshotStep *step)
 {
-    char name[COLUMN_NAME_SIZE];
+    char name[DATASET_NAME_SIZE];
     for (int s = SCALAR_OWN; s < SCALAR_STATE_COUNT; s++) {
         dataset_of((Scalar)s, name);
         if (H5Lexists(group, name, H5P_DEFAULT) <= 0)
@@ -574,17 +535,6 @@ static const char *read_shown(hid_t group, SnapshotStep *step)
             return scalar_name((Scalar)s);
     }
     return NULL;
-}
-
-bool snapshot_step_misses(const SnapshotStep *step, const char *name)
-{
-    unsigned field = 0, lacks = 0;
-#define X(own, type, field_of)                                                                               \
-    lacks |= strcmp(own, name) == 0 ? step->lacks & 1U << field : 0;                                         \
-    field++;
-    SNAPSHOT_FIELDS(X)
-#undef X
-    return lacks != 0;
 }
 
 /* Checks the count, as a damaged file may contain any number. */
@@ -639,7 +589,7 @@ bool snapshot_read_for_display(SnapshotReader *reader, size_t index, SnapshotSte
 bool snapshot_file_has(const char *path, Scalar scalar)
 {
     Error none;
-    char name[COLUMN_NAME_SIZE];
+    char name[DATASET_NAME_SIZE];
     SnapshotReader *reader = snapshot_open_for_display(path, &none);
     const hid_t group = reader ? open_step(reader->file, 0) : -1;
     dataset_of(scalar, name);
@@ -687,4 +637,16 @@ bool snapshot_read_method_columns(SnapshotReader *reader, size_t index, const Co
     if (missing)
         snapshot_step_free(step);
     return !missing;
+}
+
+SnapshotFlaws snapshot_flaws(const SnapshotReader *reader, bool strict)
+{
+    SnapshotScene scene = {.dimensions = 0};
+    SnapshotFlaws flaws = {.farthest = INFINITY, .fluids = SIZE_MAX, .strict = strict};
+    if (!snapshot_read_scene(reader, &scene, NULL))
+        return flaws;
+    flaws.farthest =
+        SNAPSHOT_FARTHEST_BOXES * fmax(scene.box_size[0], fmax(scene.box_size[1], scene.box_size[2]));
+    flaws.fluids = scene.fluid_count;
+    return flaws;
 }

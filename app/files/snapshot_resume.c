@@ -1,6 +1,6 @@
 /* Resumes a run from the end of its file. */
 #include "app/files/snapshot_private.h"
-#include "app/scene/keys.h"
+#include "app/scene/scene.h"
 #include "sim/step/method.h"
 
 #include <stdio.h>
@@ -179,31 +179,31 @@ static size_t read_end(const char *path, const Scene *scene, const char *hand, W
     return good ? steps : 0;
 }
 
-SnapshotWriter *snapshot_resume(const char *path, const Scene *scene, const char *hand, WorldState *state,
-                                bool *busy, Error *error)
+SnapshotWriter *snapshot_resume_parallel(const char *path, const Scene *scene, const char *hand,
+                                         const SnapshotParallel *share, WorldState *state, bool *busy,
+                                         Error *error)
 {
     OutputLock lock = {.state = OUTPUT_UNLOCKED};
-    *busy = !output_lock(&lock, path, error);
-    const size_t steps = *busy ? 0 : read_end(path, scene, hand, state, error);
+    const bool first = !share || share->first;
+    size_t steps = 0;
+    *busy = first && !output_lock(&lock, path, error);
+    if (first && !*busy)
+        steps = read_end(path, scene, hand, state, error);
+    if (share) {
+        share->tell(&steps, sizeof steps);
+        share->tell(busy, sizeof *busy);
+        share->agree(!first || steps > 0, error);
+    }
     SnapshotWriter *snapshot =
-        steps > 0 ? snapshot_continue(path, &scene->world, steps, &lock, NULL, error) : NULL;
+        steps > 0 ? snapshot_continue(path, &scene->world, steps, &lock, share, error) : NULL;
     output_unlock(&lock);
     return snapshot;
 }
 
-SnapshotWriter *snapshot_resume_parallel(const char *path, const Scene *scene, const SnapshotParallel *share,
-                                         WorldState *state, Error *error)
+SnapshotWriter *snapshot_resume(const char *path, const Scene *scene, const char *hand, WorldState *state,
+                                bool *busy, Error *error)
 {
-    OutputLock lock = {.state = OUTPUT_UNLOCKED};
-    size_t steps = 0;
-    if (share->first && output_lock(&lock, path, error))
-        steps = read_end(path, scene, "", state, error);
-    share->tell(&steps, sizeof steps);
-    const bool read = share->agree(!share->first || steps > 0, error);
-    SnapshotWriter *snapshot =
-        read ? snapshot_continue(path, &scene->world, steps, &lock, share, error) : NULL;
-    output_unlock(&lock);
-    return snapshot;
+    return snapshot_resume_parallel(path, scene, hand, NULL, state, busy, error);
 }
 
 static bool first_of(const SnapshotStep *step, SnapshotFirst *first)

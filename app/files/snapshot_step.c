@@ -108,6 +108,17 @@ const char *snapshot_frame_name(SnapshotFrame frame)
     return names[frame];
 }
 
+bool snapshot_step_misses(const SnapshotStep *step, const char *name)
+{
+    unsigned field = 0, lacks = 0;
+#define X(own, type, field_of)                                                                               \
+    lacks |= strcmp(own, name) == 0 ? step->lacks & 1U << field : 0;                                         \
+    field++;
+    SNAPSHOT_FIELDS(X)
+#undef X
+    return lacks != 0;
+}
+
 void snapshot_step_to_world(SnapshotStep *step)
 {
     for (size_t i = 0; i < step->count; i++) {
@@ -122,18 +133,6 @@ void snapshot_step_to_world(SnapshotStep *step)
             step->velocity[k][i] = (float)v_world[k];
         }
     }
-}
-
-SnapshotFlaws snapshot_flaws(const SnapshotReader *reader, bool strict)
-{
-    SnapshotScene scene;
-    SnapshotFlaws flaws = {.farthest = INFINITY, .fluids = SIZE_MAX, .strict = strict};
-    if (!snapshot_read_scene(reader, &scene, NULL))
-        return flaws;
-    flaws.farthest =
-        SNAPSHOT_FARTHEST_BOXES * fmax(scene.box_size[0], fmax(scene.box_size[1], scene.box_size[2]));
-    flaws.fluids = scene.fluid_count;
-    return flaws;
 }
 
 /* The worst flaw of particle i; SNAPSHOT_FLAW_COUNT: none. `dense`: the file has densities. */

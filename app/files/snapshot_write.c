@@ -1,12 +1,13 @@
 #define _GNU_SOURCE /* fallocate */
 /* Disk space for a file of snapshots, reserved before a step is written. */
-#include "app/base/output.h"
+#include "app/base/file.h"
 #include "app/files/snapshot.h"
 #include "app/files/snapshot_private.h"
-#include "app/scene/keys.h"
-#include "sim/base/color.h"
+#include "app/scene/scene.h"
+#include "sim/base/base.h"
 #include "sim/flow/flow.h"
 #include "sim/step/method.h"
+#include "sim/step/world.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -278,14 +279,6 @@ struct SnapshotWriter {
     uint32_t *fluid;
 };
 
-hid_t snapshot_access(void)
-{
-    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    if (access >= 0)
-        H5Pset_file_locking(access, false, true);
-    return access;
-}
-
 /* ---- sharing processes ---- */
 
 /* True for the process that handles the file's name, locks and disk space. */
@@ -534,7 +527,7 @@ static bool read_world(SnapshotWriter *snapshot, World *world, const WorldInfo *
     step->step = info->step;
     step->box = info->box;
     memcpy(step->gravity, info->gravity, sizeof step->gravity);
-    step->count = snapshot->share ? snapshot->share->held() : info->count;
+    step->count = world_held(world);
     world_save_numbers(world, &step->restart);
     ParticleArrays arrays = {
         .position = snapshot->position,
@@ -562,8 +555,8 @@ static bool read_world(SnapshotWriter *snapshot, World *world, const WorldInfo *
 bool snapshot_append(SnapshotWriter *snapshot, World *world, Error *error)
 {
     WorldInfo info;
+    const size_t count = world_held(world);
     world_info(world, &info);
-    const size_t count = snapshot->share ? snapshot->share->held() : info.count;
     const bool read = grow_buffers(snapshot, count, error) &&
                       (read_world(snapshot, world, &info) ||
                        error_set(error, "%s: no memory to read %zu particles", snapshot->output.path, count));

@@ -1,8 +1,7 @@
-#include "app/files/surface.h"
-
 #include "app/base/program.h"
+#include "app/files/export.h"
 #include "app/files/snapshot.h"
-#include "sim/base/color.h"
+#include "sim/base/base.h"
 #include "slosh/mesh.h"
 #include "slosh/world.h"
 

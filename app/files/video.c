@@ -1,7 +1,8 @@
 #define _GNU_SOURCE /* memfd_create, pipe2, F_SETPIPE_SZ */
-#include "app/base/output.h"
+#include "app/base/file.h"
 #include "app/files/pictures.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -18,10 +19,11 @@
 
 extern char **environ;
 
-enum { LOG_BYTES = 4096, GIF_FPS = 50 };
+enum { LOG_BYTES = 4096 };
 enum { PIPE_BYTES = 1 << 20 }; /* large, so that ffmpeg works while the next picture is drawn */
 
 struct Video {
+    const PictureFormat *format;
     Output output;
     pid_t process; /* 0: ended */
     int pipe;      /* for writing pictures; -1: closed */
@@ -42,14 +44,7 @@ static void write_filter(char filter[192], int width, int height)
     snprintf(filter, 192, "%sscale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd", odd);
 }
 
-/* True if the path ends in ".gif". */
-static bool video_is_gif(const char *path)
-{
-    const char *dot = strrchr(path, '.');
-    return dot && strcasecmp(dot, ".gif") == 0;
-}
-
-/* Options after the input. One palette per picture: a common palette would keep all pictures in memory. */
+/* One palette per picture: a common palette would keep all pictures in memory. */
 static const char *const as_gif[] = {
     "-filter_complex",
     "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=bayer:bayer_scale=4",
@@ -66,6 +61,66 @@ static const char *const as_mp4[] = {
     "yuv420p",      "-colorspace", "bt709",     "-color_primaries", "bt709", "-color_trc", "bt709",
     "-color_range", "tv",          "-movflags", "+faststart",       "-f",    "mp4",        NULL};
 
+static const PictureFormat png = {.extension = "png", .help = "one picture", .kind = PICTURES_PNG};
+static const PictureFormat mp4 = {
+    .extension = "mp4", .help = "a video, H.264", .kind = PICTURES_VIDEO, .encoder = as_mp4, .even = true};
+static const PictureFormat gif = {.extension = "gif",
+                                  .help = "an animation that repeats",
+                                  .kind = PICTURES_VIDEO,
+                                  .encoder = as_gif,
+                                  .fps_max = 50};
+static const PictureFormat folder = {
+    .extension = "", .help = "frame_00000.png and so on", .kind = PICTURES_FOLDER};
+
+enum { PICTURE_FORMATS_MAX = 8 };
+
+/* Ends with NULL. */
+static const PictureFormat *formats[PICTURE_FORMATS_MAX + 1] = {&png, &mp4, &gif, &folder};
+
+const PictureFormat *picture_format_at(int index)
+{
+    return formats[index];
+}
+
+void picture_format_add(const PictureFormat *format)
+{
+    int count = 0;
+    while (formats[count])
+        count++;
+    assert(count < PICTURE_FORMATS_MAX);
+    formats[count] = format;
+}
+
+/* Finds the format: by the extension of the name, or a folder: no extension, or a final slash. Returns NULL
+   for other extensions. */
+static const PictureFormat *picture_format_find(const char *path, Error *error)
+{
+    char known[128] = "";
+    const char *slash = strrchr(path, '/');
+    const char *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    if (path[0] && (!dot || dot == name || strcmp(name, "..") == 0))
+        return &folder;
+    for (int i = 0; formats[i]; i++) {
+        if (formats[i] == &folder)
+            continue;
+        if (dot && strcasecmp(dot + 1, formats[i]->extension) == 0)
+            return formats[i];
+        snprintf(known + strlen(known), sizeof known - strlen(known), "%s.%s", *known ? ", " : "",
+                 formats[i]->extension);
+    }
+    error_set(error, "cannot tell the format from '%s'; use %s or a folder name", path, known);
+    return NULL;
+}
+
+bool pictures_kind(const char *path, PicturesKind *kind, Error *error)
+{
+    const PictureFormat *format = picture_format_find(path, error);
+    if (format)
+        *kind = format->kind;
+    return format != NULL;
+}
+
 enum { ARGUMENTS_MAX = 48 };
 
 static void add_all(char *arguments[ARGUMENTS_MAX], const char *const more[])
@@ -81,16 +136,15 @@ static void add_all(char *arguments[ARGUMENTS_MAX], const char *const more[])
 static int spawn_ffmpeg(Video *video, int input, int width, int height, double fps)
 {
     char size[32], rate[32], filter[192];
-    const bool gif = video_is_gif(video->output.path);
     snprintf(size, sizeof size, "%dx%d", width, height);
     snprintf(rate, sizeof rate, "%.6f", fps);
     write_filter(filter, width, height);
     char *arguments[ARGUMENTS_MAX] = {
         "ffmpeg",   "-nostdin", "-hide_banner", "-v", "error",      "-xerror", "-y", "-f",    "rawvideo",
         "-pix_fmt", "rgb24",    "-video_size",  size, "-framerate", rate,      "-i", "pipe:0"};
-    if (!gif)
+    if (video->format->even)
         add_all(arguments, (const char *const[]){"-vf", filter, NULL});
-    add_all(arguments, gif ? as_gif : as_mp4);
+    add_all(arguments, video->format->encoder);
     add_all(arguments, (const char *const[]){video->output.temp, NULL});
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -132,6 +186,18 @@ static bool start(Video *video, int width, int height, double fps, Error *error)
     return error_set(error, "%s: cannot start ffmpeg: %s", video->output.path, strerror(reason));
 }
 
+static bool choose_format(Video *video, const char *path, double fps, Error *error)
+{
+    const PictureFormat *format = video->format = picture_format_find(path, error);
+    if (!format)
+        return false;
+    if (format->kind != PICTURES_VIDEO)
+        return error_set(error, "%s: not the name of a video; use an .mp4", path);
+    return format->fps_max == 0 || fps <= format->fps_max ||
+           error_set(error, "%s: a .%s has at most %g pictures a second, not %g; use --fps 25, or an .mp4",
+                     path, format->extension, format->fps_max, fps);
+}
+
 Video *video_create(const char *path, int width, int height, double fps, Error *error)
 {
     Video *video = calloc(1, sizeof *video);
@@ -141,13 +207,8 @@ Video *video_create(const char *path, int width, int height, double fps, Error *
     }
     video->pipe = video->log = -1;
     video->bytes = 3 * (size_t)width * (size_t)height;
-    if (video_is_gif(path) && fps > GIF_FPS) {
-        error_set(error, "%s: a GIF has at most %d pictures a second, not %g; use --fps 25, or an .mp4", path,
-                  GIF_FPS, fps);
-        free(video);
-        return NULL;
-    }
-    if (output_begin(&video->output, path, error) && start(video, width, height, fps, error))
+    if (choose_format(video, path, fps, error) && output_begin(&video->output, path, error) &&
+        start(video, width, height, fps, error))
         return video;
     video_discard(video);
     return NULL;
@@ -271,23 +332,6 @@ struct Pictures {
     size_t count, of;      /* written; to come, 0: not known */
     bool made_folder;
 };
-
-bool pictures_kind(const char *path, PicturesKind *kind, Error *error)
-{
-    const char *slash = strrchr(path, '/');
-    const char *name = slash ? slash + 1 : path;
-    const char *extension = strrchr(name, '.');
-    if (path[0] && (!extension || extension == name || strcmp(name, "..") == 0))
-        *kind = PICTURES_FOLDER;
-    else if (extension && strcasecmp(extension, ".png") == 0)
-        *kind = PICTURES_PNG;
-    else if (extension && (strcasecmp(extension, ".mp4") == 0 || video_is_gif(path)))
-        *kind = PICTURES_VIDEO;
-    else
-        return error_set(error, "cannot tell the format from '%s'; use .png, .mp4, .gif or a folder name",
-                         path);
-    return true;
-}
 
 static void frame_path(const Pictures *pictures, size_t index, char path[1088])
 {

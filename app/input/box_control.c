@@ -1,4 +1,4 @@
-#include "app/input/box_control.h"
+#include "app/input/input.h"
 
 #include "slosh/world.h"
 
@@ -86,8 +86,8 @@ uint64_t box_control_update(BoxControl *control, const HandInput *input, const d
     memset(own->move_drag, 0, sizeof own->move_drag);
     memset(own->turn_drag, 0, sizeof own->turn_drag);
     *news = control->news;
-    news->target = control->held.hand.told;
-    control->news = (BoxControlNews){.command_count = 0};
+    news->target = control->held.hand.sent;
+    control->news = (BoxControlNews){.action_count = 0};
     pthread_mutex_unlock(&control->lock);
     return number;
 }
@@ -239,13 +239,13 @@ static void remove_device(BoxControl *control, int number)
 /* Returns false if the device is not held. */
 static bool take_report(BoxControl *control, const DeviceEvent *event)
 {
-    PlayCommand pressed[CONTROL_BUTTONS_MAX];
+    const UserAction *pressed[CONTROL_BUTTONS_MAX];
     int count;
     if (!control_devices_report(&control->held, event, pressed, &count))
         return false;
     BoxControlNews *news = &control->news;
-    for (int i = 0; i < count && news->command_count < BOX_CONTROL_COMMANDS_MAX; i++)
-        news->commands[news->command_count++] = pressed[i];
+    for (int i = 0; i < count && news->action_count < BOX_CONTROL_ACTIONS_MAX; i++)
+        news->actions[news->action_count++] = pressed[i];
     control->reports++;
     return true;
 }
@@ -286,7 +286,7 @@ void box_control_device_event(void *user, const DeviceEvent *event)
     pthread_mutex_lock(&control->lock);
     hear(control, event, when_ms);
     const BoxControlNews *news = &control->news;
-    const bool wanted = news->command_count > 0 || news->words_count > 0 || news->camera[0] != 0 ||
+    const bool wanted = news->action_count > 0 || news->words_count > 0 || news->camera[0] != 0 ||
                         news->camera[1] != 0 || news->camera[2] != 0;
     pthread_mutex_unlock(&control->lock);
     if (wanted && control->wake)

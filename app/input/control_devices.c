@@ -1,4 +1,5 @@
-#include "app/input/box_control.h"
+#include "app/input/input.h"
+
 #include "slosh/def.h"
 
 #include <stdio.h>
@@ -99,7 +100,7 @@ void control_devices_set_target(ControlDevices *devices, const BoxTarget *target
         control_devices_release(devices, target);
     else
         devices->hand.held = *target;
-    devices->hand.told = *target;
+    devices->hand.sent = *target;
 }
 
 static ControlDevice *find(ControlDevices *devices, int number)
@@ -161,10 +162,10 @@ static bool is_as_left(const ControlDevices *devices)
    must be undone later, too. */
 static void leave_box(ControlDevices *devices, bool turned)
 {
-    const BoxTarget told = devices->hand.told;
+    const BoxTarget sent = devices->hand.sent;
     if (turned && !is_as_left(devices))
         memcpy(devices->without, devices->hand.held.orientation, sizeof devices->without);
-    control_devices_release(devices, &told);
+    control_devices_release(devices, &sent);
     if (turned)
         memcpy(devices->left, devices->hand.held.orientation, sizeof devices->left);
 }
@@ -192,7 +193,7 @@ static void take_motion(ControlDevices *devices, ControlDevice *device)
 }
 
 bool control_devices_report(ControlDevices *devices, const DeviceEvent *event,
-                            PlayCommand pressed[CONTROL_BUTTONS_MAX], int *pressed_count)
+                            const UserAction *pressed[CONTROL_BUTTONS_MAX], int *pressed_count)
 {
     ControlDevice *device = find(devices, event->number);
     const DeviceState *state = event->state;
@@ -201,10 +202,10 @@ bool control_devices_report(ControlDevices *devices, const DeviceEvent *event,
         return false;
     const uint32_t down = state->buttons & ~device->state.buttons;
     for (int bit = 0; bit < CONTROL_BUTTONS_MAX; bit++) {
-        const PlayCommand command =
-            down >> bit & 1 ? mapping_button(&device->map, device->vendor, device->product, bit) : PLAY_NONE;
-        if (command != PLAY_NONE)
-            pressed[(*pressed_count)++] = command;
+        const UserAction *action =
+            down >> bit & 1 ? mapping_button(&device->map, device->vendor, device->product, bit) : NULL;
+        if (action)
+            pressed[(*pressed_count)++] = action;
     }
     device->state = *state;
     device->silent = 0;

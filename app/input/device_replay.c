@@ -1,6 +1,6 @@
-#include "app/input/box_control.h"
-#include "app/input/hand.h"
-#include "sim/base/sums.h"
+#include "app/input/input.h"
+
+#include "sim/base/base.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -88,16 +88,13 @@ static void update(DeviceReplay *replay, double time)
 /* Handles the buttons for the box; remaining buttons matter only in a window. */
 static void take_report(DeviceReplay *replay, const DeviceEvent *event)
 {
-    PlayCommand pressed[CONTROL_BUTTONS_MAX];
+    const UserAction *pressed[CONTROL_BUTTONS_MAX];
     int count;
     if (!control_devices_report(&replay->held, event, pressed, &count))
         return;
-    for (int i = 0; i < count; i++) {
-        if (pressed[i] == PLAY_BOX_HOME)
-            control_devices_home(&replay->held);
-        if (pressed[i] == PLAY_NEUTRAL)
-            control_devices_neutral(&replay->held);
-    }
+    for (int i = 0; i < count; i++)
+        if (pressed[i]->on_devices)
+            pressed[i]->on_devices(&replay->held);
     update(replay, event->state->time);
 }
 
@@ -203,7 +200,7 @@ BoxTarget device_replay_target(DeviceReplay *replay, const double box_size[3], d
     while (play_next(replay, time))
         continue;
     replay->time = time;
-    return replay->held.hand.told;
+    return replay->held.hand.sent;
 }
 
 void device_replay_apply(DeviceReplay *replay, World *world)

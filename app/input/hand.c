@@ -1,4 +1,4 @@
-#include "app/input/hand.h"
+#include "app/input/input.h"
 
 #include <math.h>
 #include <string.h>
@@ -8,7 +8,7 @@ static const double radians = M_PI / 180;
 Hand hand_at_rest(void)
 {
     Hand hand = {.held = {.orientation = {0, 0, 0, 1}}};
-    hand.told = hand.held;
+    hand.sent = hand.held;
     return hand;
 }
 
@@ -179,13 +179,13 @@ bool hand_update(Hand *hand, const HandInput *input, const double box_size[3], B
     hold(input, side, &held);
     wanted = held;
     sway(input, side, &wanted);
-    *target = hand->told;
+    *target = hand->sent;
     if (!is_finite(&wanted))
         return false;
     hand->held = held;
-    if (!differs(&wanted, &hand->told, side))
+    if (!differs(&wanted, &hand->sent, side))
         return false;
-    *target = hand->told = wanted;
+    *target = hand->sent = wanted;
     return true;
 }
 

@@ -1,9 +1,9 @@
-#include "app/input/mapping.h"
+#include "app/input/input.h"
 
 #include "app/base/file.h"
 #include "app/base/program.h"
 #include "app/input/device/device.h"
-#include "app/scene/keys.h"
+#include "app/scene/scene.h"
 #include "app/scene/yaml/yaml.h"
 #include "sim/base/key.h"
 #include "slosh/def.h"
@@ -46,11 +46,10 @@ static const char *as_name(int as)
     return names[as];
 }
 
-/* Command of a press; "" for remaining commands, NULL after the last. */
-static const char *mapping_command_name(int command)
+/* True for an action that a button may give: a press, no gesture. */
+static bool is_press(const UserAction *action)
 {
-    const PlayCommandRow *row = &play_command_rows[command];
-    return !row->name ? NULL : row->gesture ? "" : row->name;
+    return !action->gesture;
 }
 
 static const char *pose_name(int pose)
@@ -124,17 +123,17 @@ static const double CAP_DEAD_ZONE = 0.05, STICK_DEAD_ZONE = 0.1;
 
 typedef struct ButtonDefault {
     const char *name;
-    PlayCommand command;
+    const UserAction *action;
 } ButtonDefault;
 
 static const ButtonDefault cap_buttons[] = {
-    {"left", PLAY_BOX_HOME}, {"1", PLAY_BOX_HOME}, {"right", PLAY_PAUSE},
-    {"2", PLAY_PAUSE},       {"menu", PLAY_PAUSE}, {"fit", PLAY_CAMERA_HOME},
+    {"left", &action_box_home}, {"1", &action_box_home}, {"right", &action_pause},
+    {"2", &action_pause},       {"menu", &action_pause}, {"fit", &action_camera_home},
 };
 static const ButtonDefault pad_buttons[] = {
-    {"cross", PLAY_BOX_HOME},    {"triangle", PLAY_NEUTRAL},  {"options", PLAY_PAUSE},
-    {"square", PLAY_RESET},      {"l1", PLAY_PREVIOUS_SCENE}, {"r1", PLAY_NEXT_SCENE},
-    {"create", PLAY_SCREENSHOT}, {"share", PLAY_SCREENSHOT},
+    {"cross", &action_box_home},    {"triangle", &action_neutral},  {"options", &action_pause},
+    {"square", &action_reset},      {"l1", &action_previous_scene}, {"r1", &action_next_scene},
+    {"create", &action_screenshot}, {"share", &action_screenshot},
 };
 
 static const char *const cap_axes[MAPPING_AXES] = {"x", "y", "z", "turn_x", "turn_y", "turn_z"};
@@ -174,7 +173,7 @@ static void collect_buttons(DeviceMap *map)
         for (int bit = 0; bit < DEVICE_BUTTONS_MAX && row->family == map->family; bit++)
             if (row->buttons[bit] && !device_map_button(map, row->buttons[bit]) &&
                 map->button_count < MAPPING_BUTTONS_MAX)
-                map->buttons[map->button_count++] = (ButtonMap){row->buttons[bit], PLAY_NONE};
+                map->buttons[map->button_count++] = (ButtonMap){row->buttons[bit], NULL};
 }
 
 static void set_buttons(DeviceMap *map, const ButtonDefault *buttons, size_t count)
@@ -182,7 +181,7 @@ static void set_buttons(DeviceMap *map, const ButtonDefault *buttons, size_t cou
     for (size_t i = 0; i < count; i++) {
         ButtonMap *button = device_map_button(map, buttons[i].name);
         if (button)
-            button->command = buttons[i].command;
+            button->action = buttons[i].action;
     }
 }
 
@@ -307,14 +306,14 @@ void mapping_pose(const DeviceMap *map, const double turned[4], double out[4])
     quat_turn(rotation, out);
 }
 
-PlayCommand mapping_button(const DeviceMap *map, uint16_t vendor, uint16_t product, int bit)
+const UserAction *mapping_button(const DeviceMap *map, uint16_t vendor, uint16_t product, int bit)
 {
     const DeviceRow *row = device_row(vendor, product);
     const char *name = row && bit >= 0 && bit < DEVICE_BUTTONS_MAX ? row->buttons[bit] : NULL;
     for (int i = 0; name && i < map->button_count; i++)
         if (strcmp(map->buttons[i].name, name) == 0)
-            return (PlayCommand)map->buttons[i].command;
-    return PLAY_NONE;
+            return map->buttons[i].action;
+    return NULL;
 }
 
 /* Reads a mapping file. */
@@ -416,7 +415,8 @@ static bool read_axes(const MappingReading *reading, const YamlNode *node, const
     return true;
 }
 
-static bool read_command(const MappingReading *reading, const YamlNode *node, const char *shown, int *command)
+static bool read_action(const MappingReading *reading, const YamlNode *node, const char *shown,
+                        const UserAction **action)
 {
     const char *word = node->kind == NODE_SCALAR && node->text ? node->text : "";
     if (!*word)
@@ -425,15 +425,16 @@ static bool read_command(const MappingReading *reading, const YamlNode *node, co
                           shown);
     Suggestion near = suggest_for(word);
     if (strcmp(word, "nothing") == 0) {
-        *command = PLAY_NONE;
+        *action = NULL;
         return true;
     }
-    const char *name;
-    for (int i = 0; (name = mapping_command_name(i)); i++) {
-        suggest_offer(&near, name);
-        if (!*name || strcmp(name, word) != 0)
+    for (const UserAction *const *at = user_actions; *at; at++) {
+        if (!is_press(*at))
             continue;
-        *command = i;
+        suggest_offer(&near, (*at)->name);
+        if (strcmp((*at)->name, word) != 0)
+            continue;
+        *action = *at;
         return true;
     }
     return tree_error(reading->tree, node, reading->error,
@@ -454,7 +455,7 @@ static bool read_buttons(const MappingReading *reading, const YamlNode *node, co
     for (const YamlNode *child = node->first; child; child = child->next) {
         char path[SHOWN_SIZE];
         snprintf(path, sizeof path, "%.60s.%.20s", shown, child->key);
-        if (!read_command(reading, child, path, &device_map_button(map, child->key)->command))
+        if (!read_action(reading, child, path, &device_map_button(map, child->key)->action))
             return false;
     }
     return true;
@@ -607,23 +608,23 @@ static void write_rows(const Key *rows, const void *base, FILE *file)
     fputc('}', file);
 }
 
-static const char *command_name(int command)
+static const char *action_word(const UserAction *action)
 {
-    return command == PLAY_NONE ? "nothing" : mapping_command_name(command);
+    return action ? action->name : "nothing";
 }
 
-/* Writes the buttons with a command, here or in the reader's default; names the rest in a comment. */
+/* Writes the buttons with an action, here or in the reader's default; names the rest in a comment. */
 static void write_buttons(const DeviceMap *map, const DeviceMap *begin, FILE *file)
 {
     int others = 0;
     fprintf(file, "  buttons:\n");
     for (int i = 0; i < map->button_count; i++) {
         const ButtonMap *button = &map->buttons[i];
-        if (button->command != PLAY_NONE || begin->buttons[i].command != PLAY_NONE)
-            fprintf(file, "    %s: %s\n", button->name, command_name(button->command));
+        if (button->action || begin->buttons[i].action)
+            fprintf(file, "    %s: %s\n", button->name, action_word(button->action));
     }
     for (int i = 0; i < map->button_count; i++)
-        if (map->buttons[i].command == PLAY_NONE)
+        if (!map->buttons[i].action)
             fprintf(file, "%s%s", others++ ? ", " : "    # also ", map->buttons[i].name);
     fprintf(file, others ? "\n" : "");
 }
@@ -658,12 +659,11 @@ static void write_keys(const char *of, const Key *rows, FILE *file)
     }
 }
 
-static void write_commands(FILE *file)
+static void write_actions(FILE *file)
 {
-    const char *name;
-    for (int i = 0; (name = mapping_command_name(i)); i++)
-        if (*name)
-            fprintf(file, "#     %-16s %s\n", name, play_command_rows[i].help);
+    for (const UserAction *const *at = user_actions; *at; at++)
+        if (is_press(*at))
+            fprintf(file, "#     %-16s %s\n", (*at)->name, (*at)->help);
 }
 
 void mapping_write(const Mapping *mapping, FILE *file)
@@ -680,7 +680,7 @@ void mapping_write(const Mapping *mapping, FILE *file)
     write_keys("pose.", mapping_pose_keys, file);
     write_keys("axes.NAME.", mapping_axis_keys, file);
     fprintf(file, "#   buttons.NAME: nothing, or a command of the window:\n");
-    write_commands(file);
+    write_actions(file);
     fprintf(file,
             "# A product may have an entry of its own, such as 256f:c635; it begins with its family's.\n");
     for (int f = 0; f < DEVICE_FAMILY_COUNT; f++) {
@@ -733,9 +733,8 @@ static void explain_device(const DeviceMap *map, FILE *file)
     for (int i = 0; i < MAPPING_AXES; i++)
         explain_axis(map, i, file);
     for (int i = 0; i < map->button_count; i++)
-        if (map->buttons[i].command != PLAY_NONE)
-            fprintf(file, "  %-14s %s\n", map->buttons[i].name,
-                    play_command_rows[map->buttons[i].command].help);
+        if (map->buttons[i].action)
+            fprintf(file, "  %-14s %s\n", map->buttons[i].name, map->buttons[i].action->help);
 }
 
 void mapping_explain(const Mapping *mapping, FILE *file)

@@ -1,6 +1,4 @@
-#include "app/input/touch.h"
-
-#include "sim/solids/solid.h"
+#include "app/input/input.h"
 
 #include <math.h>
 #include <string.h>
@@ -76,7 +74,7 @@ bool solid_drag_press(SolidDrag *hold, const WorldDef *def, double time, const B
     hold->reach = solid_reach(solid);
     memcpy(hold->at, part.position, sizeof hold->at);
     memcpy(hold->turn, part.orientation, sizeof hold->turn);
-    memcpy(hold->told, hold->at, sizeof hold->told);
+    memcpy(hold->sent, hold->at, sizeof hold->sent);
     memcpy(hold->spun, hold->turn, sizeof hold->spun);
     memcpy(hold->forward, forward, sizeof hold->forward);
     return true;
@@ -115,10 +113,10 @@ bool solid_drag_move(SolidDrag *hold, const SightRay *ray, SolidCommand *command
     bool same = true;
     for (int k = 0; k < 4; k++)
         same &= fabs(command->turn[k] - hold->spun[k]) < 1e-6 &&
-                (k == 3 || fabs(command->at[k] - hold->told[k]) < 1e-6 * hold->reach);
+                (k == 3 || fabs(command->at[k] - hold->sent[k]) < 1e-6 * hold->reach);
     if (same)
         return false;
-    memcpy(hold->told, command->at, sizeof hold->told);
+    memcpy(hold->sent, command->at, sizeof hold->sent);
     memcpy(hold->spun, command->turn, sizeof hold->spun);
     return true;
 }
@@ -187,7 +185,7 @@ void touch_tool_release(TouchTool *tool, bool behind)
 
 void touch_tool_reset(TouchTool *tool)
 {
-    tool->told = (Finger){.way = FINGER_NONE};
+    tool->sent = (Finger){.way = FINGER_NONE};
 }
 
 void touch_tool_travel(TouchTool *tool, unsigned travels, bool scripted)
@@ -224,9 +222,9 @@ bool touch_tool_finger(TouchTool *tool, const TouchDef *def, double spacing, Fin
         return false;
     if (tool->holds)
         *finger = touch_finger(def, tool->way, tool->at, spacing);
-    if (same(finger, &tool->told))
+    if (same(finger, &tool->sent))
         return false;
-    tool->told = *finger;
+    tool->sent = *finger;
     return true;
 }
 

@@ -1,7 +1,6 @@
 #include "app/lab/ablate.h"
 
 #include "app/base/file.h"
-#include "app/base/output.h"
 #include "app/base/program.h"
 #include "app/lab/error_chart.h"
 
@@ -155,7 +154,8 @@ typedef struct AblateWork {
     int count;
     SceneTerm terms[TERMS_MAX];
     char settings[TERMS_MAX][2 * TERM_SIZE]; /* "--sweep path=off" */
-    ChartRows whole;                         /* the rows of the whole scene */
+    Trials runs;                             /* of the whole scene, */
+    ChartRows whole;                         /* and its metrics */
     Progress progress;
     int done, all; /* runs */
 } AblateWork;
@@ -175,11 +175,11 @@ static ChartJob job_of(const AblateWork *work, int row, int round)
 
 static bool run_one(AblateWork *work, int row, int round, ChartRow *run, Error *error)
 {
-    static Scene scene;
+    Scene scene;
     const ChartJob job = job_of(work, row, round);
+    const ProgressPart part = {&work->progress, (double)work->done / work->all, 1.0 / work->all};
     return chart_prepare(&work->subject, &job, &scene, run, NULL, error) &&
-           chart_run(&work->subject, &job, run, &work->progress, (double)work->done / work->all,
-                     1.0 / work->all, error);
+           chart_run(&work->subject, &job, run, &part, error);
 }
 
 /* Records the times of a finished run. */
@@ -197,23 +197,24 @@ static void take(const AblateWork *work, const ChartRow *run, AblateRow *row)
 /* Returns false to end all runs. */
 static bool run_whole(AblateWork *work, Ablation *ablation, int round, Error *error)
 {
-    ChartRow *run = &work->whole.row[work->whole.count];
-    if (!run_one(work, 0, round, run, error))
+    ChartRow run;
+    if (!run_one(work, 0, round, &run, error))
         return false;
     work->done++;
-    take(work, run, &ablation->row[0]);
-    ablation->particles = run->particles;
-    run->role = round > 0 ? CHART_FLOOR : CHART_REFERENCE;
-    work->whole.count++;
-    return isfinite(run->seconds) || round > 0 ||
+    take(work, &run, &ablation->row[0]);
+    ablation->particles = run.particles;
+    run.role = round > 0 ? CHART_FLOOR : CHART_REFERENCE;
+    if (!trials_append(&work->runs, &run))
+        return error_set(error, "no memory for the runs");
+    return isfinite(run.seconds) || round > 0 ||
            error_set(error, "%.200s breaks as it is, so that nothing can be compared: %.200s",
-                     work->setup->scene, run->outcome.words);
+                     work->setup->scene, run.outcome.words);
 }
 
 /* If the scene cannot run without a setting, the outcome says so. */
 static bool run_without(AblateWork *work, Ablation *ablation, int term)
 {
-    static ChartRow run;
+    ChartRow run;
     AblateRow *row = &ablation->row[term + 1];
     Error why = {{0}};
     work->done++;
@@ -226,7 +227,7 @@ static bool run_without(AblateWork *work, Ablation *ablation, int term)
     }
     take(work, &run, row);
     row->change =
-        isfinite(run.seconds) ? chart_distance(&work->whole, &run, &work->whole.row[0]) : (double)NAN;
+        isfinite(run.seconds) ? chart_distance(&work->whole, &run, chart_row(&work->whole, 0)) : (double)NAN;
     return true;
 }
 
@@ -267,16 +268,14 @@ static void count_all(AblateWork *work, Ablation *ablation)
 /* Loads the scene and finds its terms. */
 static bool begin(AblateWork *work, Ablation *ablation, Error *error)
 {
-    static Notes notes;
+    Notes notes;
     SceneSettings settings = *work->setup->settings;
     if (!scene_load(work->setup->scene, &settings, &work->scene, &notes, error) ||
         !world_can(&work->scene.world, error))
         return false;
     notes_print(&notes, stderr);
     work->count = scene_terms(&work->scene, work->terms);
-    work->whole.metric_count = work->scene.metric_count;
-    memcpy(work->whole.metrics, work->scene.metrics, sizeof work->whole.metrics);
-    work->whole.probe_count = work->scene.probes.count;
+    work->whole = chart_rows_of(&work->runs, &work->scene);
     snprintf(ablation->method, sizeof ablation->method, "%s", work->scene.world.method);
     snprintf(ablation->backend, sizeof ablation->backend, "%s", work->scene.world.backend);
     ablation->count = work->count + 1;
@@ -295,9 +294,9 @@ static bool begin(AblateWork *work, Ablation *ablation, Error *error)
 
 bool ablate(const AblateSetup *setup, Ablation *ablation, Error *error)
 {
-    static AblateWork work;
-    work = (AblateWork){.setup = setup,
-                        .subject = {.scene = setup->scene, .time = setup->time, .settings = setup->settings}};
+    AblateWork work = {.setup = setup,
+                       .runs = {.table = &chart_table},
+                       .subject = {.scene = setup->scene, .time = setup->time, .settings = setup->settings}};
     *ablation = (Ablation){.scene = setup->scene, .time = setup->time, .floor = (double)NAN};
     if (!begin(&work, ablation, error))
         return false;
@@ -309,13 +308,8 @@ bool ablate(const AblateSetup *setup, Ablation *ablation, Error *error)
     if (ok && !interrupted())
         count_all(&work, ablation);
     progress_end(&work.progress);
+    trials_free(&work.runs);
     return ok;
-}
-
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
 }
 
 static double median(const double values[], int count)
@@ -324,7 +318,7 @@ static double median(const double values[], int count)
     if (count == 0)
         return (double)NAN;
     memcpy(sorted, values, (size_t)count * sizeof *values);
-    qsort(sorted, (size_t)count, sizeof *sorted, ascending);
+    qsort(sorted, (size_t)count, sizeof *sorted, compare_numbers);
     return 0.5 * (sorted[(count - 1) / 2] + sorted[count / 2]);
 }
 
@@ -361,7 +355,7 @@ double ablate_noise(const Ablation *ablation, int row)
 {
     double share[ABLATE_RUNS];
     const int count = shares(ablation, row, share);
-    qsort(share, (size_t)count, sizeof *share, ascending);
+    qsort(share, (size_t)count, sizeof *share, compare_numbers);
     return count > 1 ? share[count - 1] - share[0] : (double)NAN;
 }
 

@@ -3,7 +3,6 @@
 #define APP_LAB_ABLATE_H
 
 #include "app/lab/error_chart.h"
-#include "app/scene/keys.h"
 #include "app/scene/scene.h"
 
 /* `slosh bench --ablate`: the cost of each term of a scene, and the change of the scene without the term.

@@ -1,10 +1,9 @@
 #include "app/bench/cases/case.h"
-#include "app/bench/gnuplot.h"
 #include "app/cli/args/args.h"
 #include "app/lab/error_chart.h"
-#include "app/run/measure/metric.h"
+#include "app/run/measure/measure.h"
 #include "app/scene/scene.h"
-#include "sim/gpu/timer.h"
+#include "sim/gpu/gl.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,17 +14,17 @@ static const double DEFAULT_TIME = 2; /* s, of a scene */
 
 bool chart_subject_find(const Args *args, ChartSubject *subject, Scene *scene, Notes *notes, Error *error)
 {
-    const char *command = args->row->name;
+    const char *command = args->command->name;
     SceneSettings settings = args->settings;
     Error no_case, no_scene;
     settings.purpose = SCENE_FOR_CHART;
     *subject = (ChartSubject){.of = case_find(args->scenes[0], &no_case),
                               .scene = args->scenes[0],
-                              .time = args->time_given ? args->time : DEFAULT_TIME,
+                              .time = args_given(args, "--time") ? args->time : DEFAULT_TIME,
                               .settings = &args->settings};
     if (subject->time <= 0)
         return error_set(error, "slosh %s: --time must be more than 0", command);
-    if (subject->of && args->time_given)
+    if (subject->of && args_given(args, "--time"))
         return error_set(error, "slosh %s: the case %s has a time of its own; leave --time out", command,
                          subject->of->name);
     const CaseSetup setup = {.of = subject->of,
@@ -139,17 +138,6 @@ static int chart_sweeps_combinations(const ChartSweeps *sweeps)
     for (int k = 0; k < sweeps->count && all <= CHART_ROWS_MAX; k++)
         all *= sweeps->values[k];
     return all;
-}
-
-/* Returns true if the key has an effect on the scene, as read with a method; else `why` has the reason. */
-static bool chart_sweeps_effect(ChartSweeps *sweeps, int key, const Scene *scene, char why[NOTE_SIZE])
-{
-    static Notes notes;
-    notes.count = 0;
-    scene_advise_key(scene, sweeps->key[key], &notes);
-    snprintf(why, NOTE_SIZE, "%s", notes.count > 0 ? notes.line[0] : "");
-    sweeps->effective[key] |= notes.count == 0;
-    return notes.count == 0;
 }
 
 /* Adds the settings of a combination to the job; keys without effect (see `effect`) are skipped. Returns
@@ -287,8 +275,8 @@ static void say_left_out(const char *why)
 /* Adds a job to the plan. Returns false with the reason if the job's scene cannot be made. */
 static bool try_job(ChartPlan *plan, ChartJob job, Error *why)
 {
-    static Scene scene;
-    static ChartRow row;
+    Scene scene;
+    ChartRow row;
     if (plan->count == CHART_JOBS_MAX)
         return error_set(why, "more than %d runs; name fewer methods, backends or swept values",
                          CHART_JOBS_MAX);
@@ -340,10 +328,8 @@ static bool load_with(const ChartPlan *plan, const char *method, const char *tex
     SceneSettings settings = *subject->settings;
     const CaseSetup setup = {
         .of = subject->of, .level = CASE_DEFAULT, .method = method, .settings = &settings};
-    if (settings.count == SCENE_SETTINGS_MAX)
-        return error_set(error, "more than %d settings; write them into a scene file", SCENE_SETTINGS_MAX);
-    settings.said[settings.count] = text;
-    settings.set[settings.count++] = text + strlen("--sweep ");
+    if (!scene_settings_add(&settings, text, text + strlen("--sweep "), error))
+        return false;
     return subject->of ? case_scene(&setup, scene, error)
                        : scene_load(subject->scene, &settings, scene, NULL, error);
 }
@@ -351,13 +337,14 @@ static bool load_with(const ChartPlan *plan, const char *method, const char *tex
 /* Finds the swept keys with an effect on a method; for the remaining keys one run is enough. */
 static void find_effects(ChartPlan *plan, const char *method, bool effect[CHART_SWEEPS])
 {
-    static Scene scene;
+    Scene scene;
     char text[96], why[NOTE_SIZE];
     Error error;
     snprintf(text, sizeof text, "--sweep solver.method=%s", method);
     const bool read = load_with(plan, method, text, &scene, &error);
     for (int k = 0; k < plan->sweeps.count; k++) {
-        effect[k] = !read || chart_sweeps_effect(&plan->sweeps, k, &scene, why);
+        effect[k] = !read || key_has_effect(&scene, plan->sweeps.key[k], why);
+        plan->sweeps.effective[k] |= read && effect[k];
         if (!effect[k])
             fprintf(stderr, "%s is not swept with method %s: %s\n", plan->sweeps.key[k], method, why);
     }
@@ -394,7 +381,7 @@ static bool plan_jobs(ChartPlan *plan, Error *error)
 /* Returns true if the scene can be read with each of the values, by its own method. */
 static bool sweep_check(const ChartPlan *plan, const Sweep *sweep, Error *error)
 {
-    static Scene scene;
+    Scene scene;
     char text[SWEPT_TEXT];
     const bool of_method = strcmp(sweep->key, "solver.method") == 0;
     bool ok = true;
@@ -439,21 +426,17 @@ static void keep_common(Notes *notes, const Notes *other)
 
 static void keep_notes_of_all(ChartPlan *plan)
 {
-    static Scene scene;
-    static Notes notes;
+    Scene scene;
+    Notes notes;
     for (int i = 0; i < plan->count && plan->notes.lasting > 0; i++) {
         const ChartJob *job = &plan->jobs[i];
-        char method[96], backend[96];
         Error error;
-        SceneSettings settings = *plan->subject.settings;
-        if (job->role != CHART_POINT || job->coarsening != 1 || settings.count + 2 > SCENE_SETTINGS_MAX)
-            continue;
-        snprintf(method, sizeof method, "solver.method=%s", job->method);
-        snprintf(backend, sizeof backend, "solver.backend=%s", job->backend);
-        settings.set[settings.count++] = method;
-        settings.set[settings.count++] = backend;
-        settings.purpose = SCENE_FOR_CHART;
-        if (scene_load(plan->subject.scene, &settings, &scene, &notes, &error))
+        RunSettings settings = {.all = *plan->subject.settings};
+        settings.all.purpose = SCENE_FOR_CHART;
+        if (job->role == CHART_POINT && job->coarsening == 1 &&
+            run_settings_add(&settings, &error, "solver.method=%s", job->method) &&
+            run_settings_add(&settings, &error, "solver.backend=%s", job->backend) &&
+            scene_load(plan->subject.scene, &settings.all, &scene, &notes, &error))
             keep_common(&plan->notes, &notes);
     }
 }
@@ -461,19 +444,11 @@ static void keep_notes_of_all(ChartPlan *plan)
 bool chart_plan_make(const Args *args, ChartPlan *plan, Error *error)
 {
     *plan = (ChartPlan){.args = args};
-    if (!gnuplot_table_name(args->output, plan->csv, error) ||
-        !chart_subject_find(args, &plan->subject, &plan->scene, &plan->notes, error))
-        return false;
-    if (!plan_sweeps(plan, error) || !plan_jobs(plan, error))
+    if (!chart_subject_find(args, &plan->subject, &plan->scene, &plan->notes, error) ||
+        !plan_sweeps(plan, error) || !plan_jobs(plan, error))
         return false;
     keep_notes_of_all(plan);
     return plan->count > 0 || error_set(error, "slosh chart: nothing of it can run here");
-}
-
-void chart_plan_end(ChartPlan *plan)
-{
-    headless_destroy(plan->context);
-    plan->context = NULL;
 }
 
 /* Likeness of a row and a job: 3, same method and backend; 2, same backend; 1, any row with a time; 0,
@@ -485,12 +460,12 @@ static int likeness(const ChartRow *row, const ChartJob *job)
     return strcmp(row->backend, job->backend) != 0 ? 1 : strcmp(row->method, job->method) != 0 ? 2 : 3;
 }
 
-double chart_plan_seconds(const ChartPlan *plan, int i, const ChartRows *rows)
+double chart_plan_seconds(const ChartPlan *plan, int i, const Trials *rows)
 {
     const WorldDef *def = &plan->scene.world;
     double factor = 1, best = 0;
     for (int r = 0; r < rows->count; r++) {
-        const ChartRow *row = &rows->row[r];
+        const ChartRow *row = trials_row(rows, r);
         const int like = likeness(row, &plan->jobs[i]);
         const double work =
             pow(row->spacing / def->spacing, -def->dimensions - 1) * (row->fineness > 0 ? 2 : 1);

@@ -1,48 +1,28 @@
 #include "app/base/program.h"
-#include "app/bench/validate.h"
+#include "app/bench/bench.h"
 #include "app/lab/error_chart.h"
-#include "app/lab/run_table.h"
-#include "app/run/measure/outcome.h"
-#include "app/run/measure/probe.h"
+#include "app/run/measure/measure.h"
 #include "sim/step/method.h"
 #include "slosh/world.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { LOOK_EVERY = 4 }; /* samples; a look costs as much as a few steps */
 
-__attribute__((format(printf, 3, 4))) static bool add(ChartSettings *job, Error *error, const char *format,
-                                                      ...)
-{
-    va_list arguments;
-    if (job->all.count == SCENE_SETTINGS_MAX)
-        return error_set(error, "more than %d settings; write them into a scene file", SCENE_SETTINGS_MAX);
-    va_start(arguments, format);
-    vsnprintf(job->texts[job->used], CHART_TEXT_SIZE, format, arguments);
-    va_end(arguments);
-    job->all.set[job->all.count++] = job->texts[job->used++];
-    return true;
-}
-
 /* Adds the job's swept settings; row's swept text gets the last parts of the keys. */
-static bool add_swept(ChartSettings *job, const ChartJob *of, ChartRow *row, Error *error)
+static bool add_swept(RunSettings *job, const ChartJob *of, ChartRow *row, Error *error)
 {
     size_t used = 0;
     for (int i = 0; i < of->set_count; i++) {
-        const char *setting = of->set[i] + strlen("--sweep "), *name = strchr(setting, '=');
-        if (job->all.count == SCENE_SETTINGS_MAX)
-            return error_set(error, "more than %d settings; write them into a scene file",
-                             SCENE_SETTINGS_MAX);
-        job->all.said[job->all.count] = of->set[i];
-        job->all.set[job->all.count++] = setting;
+        const char *setting = of->set[i] + strlen("--sweep ");
+        if (!run_settings_add(job, error, "%s", of->set[i]))
+            return false;
         if (of->step_unnamed && strncmp(setting, "solver.step.", strlen("solver.step.")) == 0)
             continue;
-        while (name > setting && name[-1] != '.')
-            name--;
-        used += (size_t)snprintf(row->swept + used, CHART_SWEPT - used, "%s%s", used > 0 ? " " : "", name);
+        used += (size_t)snprintf(row->swept + used, CHART_SWEPT - used, "%s%s", used > 0 ? " " : "",
+                                 key_last_part(setting));
         if (used >= CHART_SWEPT)
             return error_set(error, "the swept values have more than %d letters; sweep less at a time",
                              CHART_SWEPT - 1);
@@ -50,7 +30,7 @@ static bool add_swept(ChartSettings *job, const ChartJob *of, ChartRow *row, Err
     return true;
 }
 
-static bool load(const ChartSubject *subject, const ChartJob *job, ChartSettings *settings, Scene *scene,
+static bool load(const ChartSubject *subject, const ChartJob *job, RunSettings *settings, Scene *scene,
                  Notes *notes, Error *error)
 {
     if (!subject->of)
@@ -64,25 +44,25 @@ static bool load(const ChartSubject *subject, const ChartJob *job, ChartSettings
 }
 
 /* Adds the job's spacing, adjusted to whole layers in the fills. */
-static bool add_spacing(const ChartSubject *subject, const ChartJob *job, ChartSettings *settings,
-                        Scene *scene, ChartRow *row, Error *error)
+static bool add_spacing(const ChartSubject *subject, const ChartJob *job, RunSettings *settings, Scene *scene,
+                        ChartRow *row, Error *error)
 {
-    if (!add(settings, error, "particles.spacing=%.9g", row->spacing) ||
+    if (!run_settings_add(settings, error, "particles.spacing=%.9g", row->spacing) ||
         !load(subject, job, settings, scene, NULL, error))
         return false;
     row->spacing = scene->world.spacing;
-    snprintf(settings->texts[settings->used - 1], CHART_TEXT_SIZE, "particles.spacing=%.9g", row->spacing);
+    snprintf(settings->texts[settings->used - 1], RUN_TEXT_SIZE, "particles.spacing=%.9g", row->spacing);
     return true;
 }
 
 /* Loads the scene twice: first unchanged, to know its spacing and step; then with the job's spacing and
    step. A step of mode fixed shrinks with the spacing. */
-bool chart_settings(const ChartSubject *subject, const ChartJob *job, ChartSettings *settings, Scene *scene,
+bool chart_settings(const ChartSubject *subject, const ChartJob *job, RunSettings *settings, Scene *scene,
                     ChartRow *row, Error *error)
 {
-    *settings = (ChartSettings){.all = *subject->settings};
-    bool ok = add(settings, error, "solver.method=%s", job->method) &&
-              add(settings, error, "solver.backend=%s", job->backend) &&
+    *settings = (RunSettings){.all = *subject->settings};
+    bool ok = run_settings_add(settings, error, "solver.method=%s", job->method) &&
+              run_settings_add(settings, error, "solver.backend=%s", job->backend) &&
               add_swept(settings, job, row, error) && load(subject, job, settings, scene, NULL, error);
     if (!ok)
         return false;
@@ -93,25 +73,26 @@ bool chart_settings(const ChartSubject *subject, const ChartJob *job, ChartSetti
     if (def->step_mode == STEP_CFL) {
         const double number = def->cfl_number / (1 << job->fineness);
         snprintf(row->step, NAME_SIZE, "number %.3g", number);
-        ok = ok && add(settings, error, "solver.step.number=%.9g", number);
+        ok = ok && run_settings_add(settings, error, "solver.step.number=%.9g", number);
         if (method_find(def->method)->incompressible) /* max_dt bounds the step of a slow fluid */
-            ok = ok && add(settings, error, "solver.step.max_dt=%.9g",
-                           def->max_dt * sqrt(job->coarsening) / (1 << job->fineness));
+            ok = ok && run_settings_add(settings, error, "solver.step.max_dt=%.9g",
+                                        def->max_dt * sqrt(job->coarsening) / (1 << job->fineness));
     } else {
         const int substeps = (int)ceil(def->substeps * (1 << job->fineness) / job->coarsening - 1e-6);
         snprintf(row->step, NAME_SIZE, "%.3g ms", 1000 * def->dt / substeps);
-        ok = ok && add(settings, error, "solver.step.substeps=%d", substeps) &&
-             (!follows || add(settings, error, "solver.step.dt=%.9g", def->dt));
+        ok = ok && run_settings_add(settings, error, "solver.step.substeps=%d", substeps) &&
+             (!follows || run_settings_add(settings, error, "solver.step.dt=%.9g", def->dt));
     }
     return ok &&
-           (job->jitter == 0 || add(settings, error, "particles.jitter=%.9g", def->jitter + job->jitter)) &&
+           (job->jitter == 0 ||
+            run_settings_add(settings, error, "particles.jitter=%.9g", def->jitter + job->jitter)) &&
            add_spacing(subject, job, settings, scene, row, error);
 }
 
 bool chart_prepare(const ChartSubject *subject, const ChartJob *job, Scene *scene, ChartRow *row,
                    Notes *notes, Error *error)
 {
-    ChartSettings settings;
+    RunSettings settings;
     char rest[128];
     *row = (ChartRow){.role = job->role,
                       .fineness = job->fineness,
@@ -134,10 +115,10 @@ typedef struct SceneRun {
     const Scene *scene;
     World *world;
     MetricState state;
-    Probes *probes; /* NULL: no metric needs probes */
-    float *read;    /* one number per column */
-    bool feels;     /* true: a probe measures force; uses `felt` */
-    Forces felt;    /* summed since the last sample */
+    Probes *probes;    /* NULL: no metric needs probes */
+    float *read;       /* one number per column */
+    bool wants_forces; /* true: a probe measures force, into `forces` */
+    Forces forces;     /* summed since the last sample */
     WorldInfo info;
     double before[CHART_QUANTITIES], now[CHART_QUANTITIES]; /* at `before_time` and at present, s */
     double before_time;
@@ -152,13 +133,12 @@ static void read_probes(SceneRun *run)
     const ProbeList *list = &run->scene->probes;
     const float *at = run->read;
     Forces forces = {0};
-    _Static_assert((int)METRIC_PROBES == (int)PROBES_MAX, "a number a probe");
     if (!run->probes)
         return;
-    if (run->feels)
+    if (run->wants_forces)
         world_forces(run->world, &forces);
-    forces_add_mean(&run->felt, &forces);
-    forces = run->felt;
+    forces_add_mean(&run->forces, &forces);
+    forces = run->forces;
     forces_mean(&forces);
     probes_read(run->probes, &run->state.cloud, &forces, run->read);
     run->state.probe_count = list->count;
@@ -175,7 +155,8 @@ static bool start_probes(SceneRun *run)
         asked |= metric_kinds[scene->metrics[m]].numbers == 0;
     if (!asked)
         return true;
-    run->feels = probe_list_has_forces(&scene->probes) && world_enable_forces(run->world, &run->failure);
+    run->wants_forces =
+        probe_list_has_forces(&scene->probes) && world_enable_forces(run->world, &run->failure);
     run->probes = probes_create(&scene->probes, &scene->world);
     if (run->probes)
         run->read = malloc(((size_t)probes_columns(run->probes) + 1) * sizeof *run->read);
@@ -201,11 +182,11 @@ static int note_state(SceneRun *run, double at[CHART_QUANTITIES])
 /* Steps until a sound state at or after `due`. On a GPU trouble is found after the step, and the next step
    goes back. Leaves the metrics of the state before in `before`; only states within 1.5 steps of `due` are
    measured. Returns false if the run broke or a signal came. */
-static bool advance_to(SceneRun *run, double due, double until, Progress *progress, double done, double part)
+static bool advance_to(SceneRun *run, double due, double until, const ProgressPart *part)
 {
     double length = 0;
     bool sound = true;
-    run->felt = (Forces){0};
+    run->forces = (Forces){0};
     while (!sound || run->info.time < due - 1e-9) {
         const double from = run->info.time;
         if (sound && (length <= 0 || from + 1.5 * length >= due)) {
@@ -218,7 +199,7 @@ static bool advance_to(SceneRun *run, double due, double until, Progress *progre
         run->spent += (wall_ms() - begin) / 1000;
         world_info(run->world, &run->info);
         length = run->info.time - from;
-        progress_update(progress, done + part * fmin(run->info.time / until, 1));
+        progress_part_update(part, fmin(run->info.time / until, 1));
         if (!ok || interrupted())
             return false;
     }
@@ -226,12 +207,11 @@ static bool advance_to(SceneRun *run, double due, double until, Progress *progre
 }
 
 /* Samples at k time / (CHART_TIMES - 1), by linear interpolation between the two states around. */
-static bool sample_all(SceneRun *run, double until, ChartRow *row, Progress *progress, double done,
-                       double part, Error *error)
+static bool sample_all(SceneRun *run, double until, ChartRow *row, const ProgressPart *part, Error *error)
 {
     for (int k = 0; k < CHART_TIMES; k++) {
         const double due = until * k / (CHART_TIMES - 1);
-        if (!advance_to(run, due, until, progress, done, part))
+        if (!advance_to(run, due, until, part))
             return !interrupted() || error_set(error, "stopped");
         row->quantities = note_state(run, run->now);
         if ((k % LOOK_EVERY == 0 || k == CHART_TIMES - 1) &&
@@ -264,8 +244,7 @@ static void judge(OutcomeHistory *history, const WorldTrouble *trouble, const ch
                 row->spacing, failure);
 }
 
-static bool run_scene(const Scene *scene, double until, ChartRow *row, Progress *progress, double done,
-                      double part, Error *error)
+static bool run_scene(const Scene *scene, double until, ChartRow *row, const ProgressPart *part, Error *error)
 {
     SceneRun run = {.scene = scene, .world = world_create(&scene->world, error)};
     if (!run.world)
@@ -274,7 +253,7 @@ static bool run_scene(const Scene *scene, double until, ChartRow *row, Progress 
     row->particles = run.info.count;
     const bool ok = !start_probes(&run)    ? error_set(error, "no memory for the probes")
                     : *run.failure.message ? true
-                                           : sample_all(&run, until, row, progress, done, part, error);
+                                           : sample_all(&run, until, row, part, error);
     judge(&run.history, &run.info.trouble, run.failure.message, row);
     metric_state_free(&run.state);
     probes_destroy(run.probes);
@@ -283,12 +262,12 @@ static bool run_scene(const Scene *scene, double until, ChartRow *row, Progress 
     return ok;
 }
 
-static bool run_case(const ChartSubject *subject, const ChartJob *job, ChartRow *row, Progress *progress,
-                     double done, double part, Error *error)
+static bool run_case(const ChartSubject *subject, const ChartJob *job, ChartRow *row,
+                     const ProgressPart *part, Error *error)
 {
-    static CaseResult result;
-    static Scene scene;
-    ChartSettings settings;
+    CaseResult result;
+    Scene scene;
+    RunSettings settings;
     if (!chart_settings(subject, job, &settings, &scene, row, error))
         return false;
     Case of = *subject->of;
@@ -300,7 +279,7 @@ static bool run_case(const ChartSubject *subject, const ChartJob *job, ChartRow 
                              .settings = &settings.all,
                              .watch = case_watch,
                              .watcher = &watch};
-    const bool ok = case_run(&setup, progress, done, part, &result, error);
+    const bool ok = case_run(&setup, part->progress, part->done, part->part, &result, error);
     row->particles = result.particles;
     judge(&watch.history, &result.run.info.trouble, result.failure, row);
     if (ok && !*result.failure) {
@@ -311,15 +290,14 @@ static bool run_case(const ChartSubject *subject, const ChartJob *job, ChartRow 
     return ok;
 }
 
-bool chart_run(const ChartSubject *subject, const ChartJob *job, ChartRow *row, Progress *progress,
-               double done, double part, Error *error)
+bool chart_run(const ChartSubject *subject, const ChartJob *job, ChartRow *row, const ProgressPart *part,
+               Error *error)
 {
-    static Scene scene;
+    Scene scene;
     if (subject->of)
-        return run_case(subject, job, row, progress, done, part, error);
-    ChartSettings settings;
+        return run_case(subject, job, row, part, error);
+    RunSettings settings;
     return chart_settings(subject, job, &settings, &scene, row, error) &&
            load(subject, job, &settings, &scene, NULL, error) &&
-           run_scene(&scene, subject->time * (job->role == CHART_LONG ? CHART_LONGER : 1), row, progress,
-                     done, part, error);
+           run_scene(&scene, subject->time * (job->role == CHART_LONG ? CHART_LONGER : 1), row, part, error);
 }

@@ -1,13 +1,13 @@
-/* One run of `slosh chart`: its settings, its computing time, its error. Rows are kept in a CSV file, so
-   that no run is repeated. The last column, for a scene, has the numbers of the metrics at CHART_TIMES
-   even times: numbers separated by blanks, times by semicolons. */
+/* One run of `slosh chart`: its settings, its computing time, its error. The last cell of a row, for a scene,
+   has the numbers of the metrics at CHART_TIMES even times: numbers separated by blanks, times by
+   semicolons. */
 #ifndef APP_LAB_ERROR_CHART_H
 #define APP_LAB_ERROR_CHART_H
 
 #include "app/bench/cases/case.h"
 #include "app/cli/args/args.h"
-#include "app/run/measure/metric.h"
-#include "app/run/measure/outcome.h"
+#include "app/lab/experiment.h"
+#include "app/run/measure/measure.h"
 #include "app/run/offscreen.h"
 #include "app/scene/scene.h"
 
@@ -46,30 +46,22 @@ typedef struct ChartRow {
     double series[CHART_TIMES][CHART_QUANTITIES];
 } ChartRow;
 
+/* The file of the runs of `slosh chart` and `slosh fit`. */
+extern const TrialTable chart_table;
+
 typedef struct ChartRows {
     int metric_count, metrics[SCENE_METRICS_MAX]; /* metrics to compare a scene's runs by, as in Scene */
     int probe_count;                              /* of the scene */
-    int count;
-    ChartRow row[CHART_ROWS_MAX];
+    Trials *trials;                               /* of chart_table */
 } ChartRows;
 
-/* Reads the sound rows of an older run; zero rows if the file is missing or empty. Each unsound row, or a
-   file of another version, is reported to `warnings` (may be NULL). Returns false with the reason if the
-   file cannot be read or is no chart's; such a file must not be replaced. */
-bool chart_rows_read(ChartRows *rows, const char *path, FILE *warnings, Error *error);
+static inline ChartRow *chart_row(const ChartRows *rows, int i)
+{
+    return trials_row(rows->trials, i);
+}
 
-/* Adds a row, replacing the row with the same key. If there is no room, replaces the oldest row outside
-   `plan`. */
-void chart_rows_add(ChartRows *rows, const ChartRow *row, const ChartRows *plan);
-
-/* Adds the rows written to the file since it was read, by another chart under the same name. */
-void chart_rows_merge(ChartRows *rows, const char *path, const ChartRows *plan);
-
-/* Writes all rows; the file is complete or not written at all. */
-bool chart_rows_write(const ChartRows *rows, const char *path, Error *error);
-
-/* Returns the row with the key, or NULL. */
-const ChartRow *chart_rows_find(const ChartRows *rows, uint64_t key);
+/* These rows, with the metrics of the scene. */
+ChartRows chart_rows_of(Trials *trials, const Scene *scene);
 
 /* Returns the reference among the rows, or NULL: missing, or its run broke. */
 const ChartRow *chart_rows_reference(const ChartRows *rows);
@@ -156,19 +148,9 @@ typedef struct ChartJob {
 /* A CHART_LONG run takes CHART_LONGER times the subject's time. */
 enum { CHART_LONGER = 3 };
 
-enum { CHART_TEXTS = 6, CHART_TEXT_SIZE = 96 };
-
-/* The settings of a run: settings of the command line, then settings of the job. Contains pointers into
-   itself: do not copy. */
-typedef struct ChartSettings {
-    SceneSettings all;
-    char texts[CHART_TEXTS][CHART_TEXT_SIZE];
-    int used;
-} ChartSettings;
-
 /* Fills in settings, and row's step, swept values and spacing. The spacing is set to a value with whole
    layers in the fills. `scene` is scratch space. A case puts its own settings first. */
-bool chart_settings(const ChartSubject *subject, const ChartJob *job, ChartSettings *settings, Scene *scene,
+bool chart_settings(const ChartSubject *subject, const ChartJob *job, RunSettings *settings, Scene *scene,
                     ChartRow *row, Error *error);
 
 /* Loads the scene of a job, and fills in row's key, method, backend, step and spacing. The scene's notes
@@ -178,8 +160,8 @@ bool chart_prepare(const ChartSubject *subject, const ChartJob *job, Scene *scen
 
 /* Runs the job into `row`, filled in by chart_prepare before. A broken simulation leaves seconds and error
    NaN, with the reason in the outcome. Returns false on any other failure or a signal. */
-bool chart_run(const ChartSubject *subject, const ChartJob *job, ChartRow *row, Progress *progress,
-               double done, double part, Error *error);
+bool chart_run(const ChartSubject *subject, const ChartJob *job, ChartRow *row, const ProgressPart *part,
+               Error *error);
 
 /* --sweep of `slosh chart`: one series per combination of values; particles.spacing gives the axis
    instead. */
@@ -207,14 +189,13 @@ enum { CHART_JOBS_MAX = 200, CHART_NAMES_MAX = SWEEP_NAMES_MAX };
 typedef struct ChartPlan {
     const Args *args;
     ChartSubject subject;
-    Scene scene;    /* as set by the command line; for a case with its first method */
-    char csv[1024]; /* file of the runs */
-    Notes notes;    /* of the scene */
+    Scene scene; /* as set by the command line; for a case with its first method */
+    Notes notes; /* of the scene */
     ChartSweeps sweeps;
     int coarsening_count;
     double coarsenings[CHART_SPACINGS]; /* times the scene's spacing, coarsest first */
     char note[256];                     /* the left out backends and the reason; or "" */
-    Headless *context;                  /* NULL until first needed */
+    Headless *context;                  /* NULL unless needed to know; of the caller */
     bool wants_context;
     int count;
     ChartJob jobs[CHART_JOBS_MAX];
@@ -223,23 +204,21 @@ typedef struct ChartPlan {
 
 /* Makes the plan. Returns false with the reason if the command line or the scene is wrong. Backends: those
    of the command line; else the scene's own, `cpu`, and the GPU backends if there is a GPU. A software
-   renderer would take ten times as long or more, and not represent a GPU. Call chart_plan_end in either
-   case. */
+   renderer would take ten times as long or more, and not represent a GPU. */
 bool chart_plan_make(const Args *args, ChartPlan *plan, Error *error);
-void chart_plan_end(ChartPlan *plan);
 
 /* Estimates the time of job `i`, s, from the runs in `rows` with the same method and backend, else from
    other runs. Without such runs the unit is arbitrary. */
-double chart_plan_seconds(const ChartPlan *plan, int i, const ChartRows *rows);
+double chart_plan_seconds(const ChartPlan *plan, int i, const Trials *rows);
 
 /* Reports of `slosh chart`: a table, JSON. */
 
 /* Prints one line per row; of the floor only the spread. */
 void chart_print(const ChartRows *rows, double floor, FILE *file);
 
-/* Writes {"chart": subject, "error_of": error_name, "floor", "orders": [...], "runs": [...], "error":
-   failure}; unknown values are null. `failure`: why there is no chart, or NULL. */
-bool chart_write_json(const ChartRows *rows, const char *subject, const char *error_name, double floor,
-                      const char *failure, const char *path, Error *error);
+/* {"chart": subject, "error_of": error_name, "floor", "orders": [...], "runs": [...], "error": failure};
+   unknown values are null. `failure`: why there is no chart, or NULL. */
+json_t *chart_json(const ChartRows *rows, const char *subject, const char *error_name, double floor,
+                   const char *failure);
 
 #endif

@@ -103,7 +103,7 @@ bool fit_search(const FitSpace *space, const FitGoal *goal, FitLadder *ladder);
 /* Returns the index of the try closest to the goal; -1: all broke. */
 int fit_closest(const FitLadder *ladder, const FitGoal *goal);
 
-/* The settings of a scene varied by `slosh fit`: each is one axis of app/lab/fit.h, in the order of
+/* The settings of a scene varied by `slosh fit`: each is one axis, in the order of
    FitAxisName. The first place of an axis FIT_FREE is the scene's own value.
 
    Only the computation of a flow may vary, never the flow: no viscosity, no surface tension, no speed of
@@ -144,9 +144,8 @@ enum { FIT_REASONS = 64 };
 
 typedef struct FitRuns {
     const FitAxes *axes;
-    const char *csv; /* file of the runs */
+    ExperimentRun *run; /* has the rows of the file */
     bool quiet;
-    ChartRows kept;          /* all rows of the file */
     ChartRows used;          /* rows of this search, in the order of the requests */
     int there, made;         /* counts of runs taken from the file, and of new runs */
     ChartRow reference;      /* of a scene: compared with all runs */
@@ -162,8 +161,8 @@ typedef struct FitRuns {
 /* Returns the count of CPU threads of the runs, which the costs depend on. */
 int fit_threads(const Scene *scene);
 
-/* Reads the file of runs. Returns false with the reason. */
-bool fit_runs_begin(const FitAxes *axes, const char *csv, bool quiet, FitRuns *runs, Error *error);
+/* Returns false with the reason if the scene or its reference cannot run. */
+bool fit_runs_begin(const FitAxes *axes, ExperimentRun *run, FitRuns *runs, Error *error);
 
 /* Runs the unchanged scene with small jitters, and sets `floor` to the spread. Returns false with
    runs->error. */
@@ -180,6 +179,11 @@ void fit_runs_space(FitRuns *runs, FitSpace *space);
 /* Simulated time per frame of --frame-ms, s: the frame rate of a screen. */
 #define FIT_FRAME (1.0 / 30)
 
+/* The options of `slosh fit`: Args.own. */
+typedef struct FitOptions {
+    double error, frame_ms; /* percent, ms; 0: not given */
+} FitOptions;
+
 typedef struct FitPlan {
     const Args *args;
     ChartSubject subject;
@@ -187,9 +191,9 @@ typedef struct FitPlan {
     Notes notes;
     FitAxes axes;
     FitGoal goal;
-    char error_of[256];           /* meaning of the error */
-    char output[1024], csv[1024]; /* file of the resulting scene; file of the runs */
-    char command[1024];           /* approximately as typed by the user */
+    char error_of[256]; /* meaning of the error */
+    const char *output; /* file of the resulting scene */
+    char command[1024]; /* approximately as typed by the user */
     FitRuns runs;
     FitLadder ladder;
 } FitPlan;
@@ -197,8 +201,11 @@ typedef struct FitPlan {
 /* Fills in the default of --output: NAME_fit.yaml in the current folder. */
 void fit_default_output(const char *scene, char output[1024]);
 
+/* Fills in NAME.yaml, and NAME.csv beside it. */
+bool fit_name_files(const Args *args, char output[1024], char csv[1024], Error *error);
+
 /* Makes the plan. Returns false with the reason if the command line or the scene is wrong. */
-bool fit_plan_make(const Args *args, FitPlan *plan, Error *error);
+bool fit_plan_make(const Args *args, const char *output, FitPlan *plan, Error *error);
 
 /* Returns the row of a finished try. */
 const ChartRow *fit_plan_row(const FitPlan *plan, int i);
@@ -215,12 +222,10 @@ void fit_goal_text(const FitPlan *plan, char *text, size_t size);
    settings not run. */
 void fit_print(const FitPlan *plan, FILE *file);
 
-/* Writes {"fit": subject, "error_of", "goal": {"error" or "frame_ms", "cost"}, "floor", "processor",
+/* {"fit": subject, "error_of", "goal": {"error" or "frame_ms", "cost"}, "floor", "processor",
    "threads", "best": place in "runs" or null, "output", "runs": [...], "pruned": [...], "error": failure};
    unknown values are null. `failure`: why there is no scene, or NULL. */
-bool fit_write_json(const FitPlan *plan, const char *failure, const char *path, Error *error);
-
-/* Seal: a hash in the head of a written scene tells if the file was changed since. */
+json_t *fit_json(const FitPlan *plan, const char *failure);
 
 /* Writes the scene found by `slosh fit`. */
 

@@ -1,11 +1,7 @@
 #include "app/base/file.h"
-#include "app/base/output.h"
 #include "app/bench/bench.h"
 #include "app/lab/fit.h"
-#include "app/lab/run_table.h"
-#include "app/scene/keys.h"
 #include "app/scene/scene.h"
-#include "app/scene/scene_files.h"
 #include "app/scene/yaml/yaml.h"
 
 #include <errno.h>
@@ -16,20 +12,25 @@
 #include <string.h>
 #include <strings.h>
 
+static const FitOptions *own(const Args *args)
+{
+    return args->own;
+}
+
 static bool take_goal(const Args *args, FitPlan *plan, Error *error)
 {
-    if ((args->error > 0) == (args->frame_ms > 0))
-        return error_set(error, args->error > 0
+    if ((own(args)->error > 0) == (own(args)->frame_ms > 0))
+        return error_set(error, own(args)->error > 0
                                     ? "slosh fit: --error and --frame-ms exclude each other; name one of them"
                                     : "slosh fit: say what is asked for, --error PERCENT or --frame-ms MS");
     /* slower than real time never keeps up, so a cost above 1 is not allowed */
-    plan->goal = args->error > 0
-                     ? (FitGoal){.error = args->error / 100, .cost = INFINITY}
-                     : (FitGoal){.error = INFINITY, .cost = fmin(args->frame_ms / 1000 / FIT_FRAME, 1)};
-    if (args->frame_ms / 1000 > FIT_FRAME * 1.001)
+    plan->goal = own(args)->error > 0
+                     ? (FitGoal){.error = own(args)->error / 100, .cost = INFINITY}
+                     : (FitGoal){.error = INFINITY, .cost = fmin(own(args)->frame_ms / 1000 / FIT_FRAME, 1)};
+    if (own(args)->frame_ms / 1000 > FIT_FRAME * 1.001)
         notes_add(&plan->notes,
                   "--frame-ms %g is longer than a frame of 1/30 s: real time allows %.3g ms, which are taken",
-                  args->frame_ms, 1000 * FIT_FRAME);
+                  own(args)->frame_ms, 1000 * FIT_FRAME);
     return true;
 }
 
@@ -39,20 +40,18 @@ void fit_default_output(const char *scene, char output[1024])
     snprintf(output, 1024, "%.*s_fit.yaml", dot && dot > name ? (int)(dot - name) : (int)strlen(name), name);
 }
 
-/* Sets NAME.yaml, and NAME.csv beside it. */
-static bool name_outputs(const Args *args, FitPlan *plan, Error *error)
+bool fit_name_files(const Args *args, char output[1024], char csv[1024], Error *error)
 {
-    if (args->output && strlen(args->output) >= sizeof plan->output)
-        return error_set(error, "the name of the scene has more than %zu bytes; name a shorter one",
-                         sizeof plan->output - 1);
+    if (args->output && strlen(args->output) >= 1024)
+        return error_set(error, "the name of the scene has more than %d bytes; name a shorter one", 1023);
     if (args->output)
-        snprintf(plan->output, sizeof plan->output, "%s", args->output);
+        snprintf(output, 1024, "%s", args->output);
     else
-        fit_default_output(args->scenes[0], plan->output);
-    snprintf(plan->csv, sizeof plan->csv, "%s", plan->output);
-    char *dot = strrchr(plan->csv, '.');
+        fit_default_output(args->scenes[0], output);
+    snprintf(csv, 1024, "%s", output);
+    char *dot = strrchr(csv, '.');
     if (!dot || strcasecmp(dot, ".yaml") != 0)
-        return error_set(error, "'%s' is no name for a scene; name a FILE.yaml", plan->output);
+        return error_set(error, "'%s' is no name for a scene; name a FILE.yaml", output);
     memcpy(dot, ".csv", sizeof ".csv");
     return true;
 }
@@ -62,9 +61,9 @@ static void note_command(const Args *args, FitPlan *plan)
     char *text = plan->command;
     const size_t size = sizeof plan->command;
     size_t used = (size_t)snprintf(text, size, "slosh fit %.300s %s %g", args->scenes[0],
-                                   args->error > 0 ? "--error" : "--frame-ms",
-                                   args->error > 0 ? args->error : args->frame_ms);
-    if (args->time_given)
+                                   own(args)->error > 0 ? "--error" : "--frame-ms",
+                                   own(args)->error > 0 ? own(args)->error : own(args)->frame_ms);
+    if (args_given(args, "--time"))
         used += (size_t)snprintf(text + used, size - used, " --time %g", args->time);
     if (args->settings.particles > 0)
         used += (size_t)snprintf(text + used, size - used, " --particles %zu", args->settings.particles);
@@ -72,11 +71,10 @@ static void note_command(const Args *args, FitPlan *plan)
         used += (size_t)snprintf(text + used, size - used, " --set %.*s", 100, args->settings.set[i]);
 }
 
-bool fit_plan_make(const Args *args, FitPlan *plan, Error *error)
+bool fit_plan_make(const Args *args, const char *output, FitPlan *plan, Error *error)
 {
-    *plan = (FitPlan){.args = args};
-    if (!name_outputs(args, plan, error) ||
-        !chart_subject_find(args, &plan->subject, &plan->scene, &plan->notes, error) ||
+    *plan = (FitPlan){.args = args, .output = output};
+    if (!chart_subject_find(args, &plan->subject, &plan->scene, &plan->notes, error) ||
         !take_goal(args, plan, error))
         return false;
     note_command(args, plan);
@@ -87,7 +85,7 @@ bool fit_plan_make(const Args *args, FitPlan *plan, Error *error)
 
 const ChartRow *fit_plan_row(const FitPlan *plan, int i)
 {
-    return &plan->runs.used.row[plan->ladder.tries[i].figures.row];
+    return chart_row(&plan->runs.used, plan->ladder.tries[i].figures.row);
 }
 
 const FitTry *fit_plan_own(const FitPlan *plan)
@@ -188,10 +186,8 @@ bool fit_scene_check(const char *path, Error *error)
 
 static bool has_effect(const Scene *scene, const char *path)
 {
-    static Notes notes;
-    notes.count = 0;
-    scene_advise_key(scene, path, &notes);
-    return notes.count == 0;
+    char why[NOTE_SIZE];
+    return key_has_effect(scene, path, why);
 }
 
 /* Returns the scene's old value for the key of "path=value", as a comment. NULL if the value is unchanged
@@ -232,7 +228,7 @@ static bool comes_again(const SceneSettings *settings, int i)
 }
 
 /* Applies the settings of the case, then of the command line, then the chosen settings. */
-static bool apply(const FitPlan *plan, const ChartSettings *chosen, const ChartJob *job, YamlTree *tree,
+static bool apply(const FitPlan *plan, const RunSettings *chosen, const ChartJob *job, YamlTree *tree,
                   Error *error)
 {
     const Case *of = plan->subject.of;
@@ -373,29 +369,17 @@ static char *print_text(const FitPlan *plan, const YamlTree *tree)
     return text;
 }
 
-static bool write_text(const FitPlan *plan, const char *text, Error *error)
+static bool put_text(const void *text, FILE *file)
 {
-    Output output = {.path = ""};
-    if (!output_begin(&output, plan->output, error))
-        return false;
-    FILE *file = fopen(output.temp, "w");
-    if (file) {
-        fputs(text, file);
-        const bool whole = !ferror(file);
-        if (fclose(file) == 0 && whole)
-            return output_commit(&output, error);
-    }
-    error_set(error, "%s: cannot be written (%s)", plan->output, strerror(errno));
-    output_discard(&output);
-    return false;
+    return fputs(text, file) >= 0;
 }
 
 static bool write_chosen(const FitPlan *plan, YamlTree *tree, Error *error)
 {
-    static Scene scene;
-    static ChartRow row;
+    Scene scene;
+    ChartRow row;
     FitJob job;
-    ChartSettings settings;
+    RunSettings settings;
     fit_axes_job(&plan->axes, &plan->ladder.tries[plan->ladder.best].point, &job);
     if (!chart_settings(&plan->subject, &job.job, &settings, &scene, &row, error) ||
         !apply(plan, &settings, &job.job, tree, error) ||
@@ -406,7 +390,8 @@ static bool write_chosen(const FitPlan *plan, YamlTree *tree, Error *error)
         drop_unused(solver, "solver", &plan->scene, &scene);
     scene_move_files(tree, plan->output, name_whole, tree);
     char *text = print_text(plan, tree);
-    const bool ok = text ? write_text(plan, text, error) : error_set(error, "no memory for the scene");
+    const bool ok = text ? output_print(plan->output, put_text, text, error)
+                         : error_set(error, "no memory for the scene");
     free(text);
     return ok;
 }
@@ -556,10 +541,10 @@ static json_t *goal_json(const FitPlan *plan)
     const Args *args = plan->args;
     return isinf(plan->goal.cost)
                ? json_pack("{s:f}", "error", plan->goal.error)
-               : json_pack("{s:f, s:f}", "frame_ms", args->frame_ms, "cost", plan->goal.cost);
+               : json_pack("{s:f, s:f}", "frame_ms", own(args)->frame_ms, "cost", plan->goal.cost);
 }
 
-bool fit_write_json(const FitPlan *plan, const char *failure, const char *path, Error *error)
+json_t *fit_json(const FitPlan *plan, const char *failure)
 {
     json_t *runs = json_array(), *pruned = json_array(), *best = NULL;
     for (int i = 0; runs && pruned && i < plan->ladder.count; i++) {
@@ -568,12 +553,9 @@ bool fit_write_json(const FitPlan *plan, const char *failure, const char *path, 
             best = json_integer((json_int_t)json_array_size(runs));
         json_array_append_new(fate == FIT_PRUNED ? pruned : runs, try_json(plan, i));
     }
-    json_t *all = json_pack("{s:s, s:s, s:o, s:o, s:s, s:i, s:o, s:s, s:o, s:o, s:s*}", "fit",
-                            plan->args->scenes[0], "error_of", plan->error_of, "goal", goal_json(plan),
-                            "floor", number_json(plan->runs.floor), "processor", bench_processor(), "threads",
-                            fit_threads(&plan->scene), "best", best ? best : json_null(), "output",
-                            plan->output, "runs", runs, "pruned", pruned, "error", failure);
-    const bool written = json_file_write(all, path, error);
-    json_decref(all);
-    return written;
+    return json_pack("{s:s, s:s, s:o, s:o, s:s, s:i, s:o, s:s, s:o, s:o, s:s*}", "fit", plan->args->scenes[0],
+                     "error_of", plan->error_of, "goal", goal_json(plan), "floor",
+                     number_json(plan->runs.floor), "processor", bench_processor(), "threads",
+                     fit_threads(&plan->scene), "best", best ? best : json_null(), "output", plan->output,
+                     "runs", runs, "pruned", pruned, "error", failure);
 }

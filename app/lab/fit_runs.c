@@ -1,8 +1,6 @@
 #include "app/base/program.h"
 #include "app/bench/bench.h"
 #include "app/lab/fit.h"
-#include "app/lab/run_table.h"
-#include "app/scene/keys.h"
 #include "app/scene/scene.h"
 #include "sim/step/method.h"
 
@@ -104,8 +102,8 @@ static void add_step(FitJob *job, const Scene *scene, double factor)
 
 bool fit_axes_job(const FitAxes *axes, const FitPoint *point, FitJob *job)
 {
-    static Scene scene;
-    static ChartRow row;
+    Scene scene;
+    ChartRow row;
     const int *at = point->at, method = at[FIT_METHOD];
     start_job(axes, axes->method[method], axes->preset[at[FIT_PRESET]], job);
     if (!load(axes, job, &scene, &row))
@@ -148,8 +146,8 @@ static bool is_named(const Scene *scene, const char *method)
 /* Finds the methods able to run the scene, the scene's own first. */
 static void find_methods(FitAxes *axes, Notes *notes)
 {
-    static Scene scene;
-    static ChartRow row;
+    Scene scene;
+    ChartRow row;
     const char *all[FIT_METHODS];
     int count = 0, *found = &axes->axis[FIT_METHOD].values;
     const Case *of = axes->subject.of;
@@ -201,20 +199,17 @@ static bool has_inviscid(const WorldDef *def)
 /* Finds the terms read by each method. */
 static void find_effects(FitAxes *axes)
 {
-    static Scene scene;
-    static ChartRow row;
-    static Notes notes;
+    Scene scene;
+    ChartRow row;
+    char why[NOTE_SIZE];
     for (int m = 0; m < axes->axis[FIT_METHOD].values; m++) {
         FitJob job;
         start_job(axes, axes->method[m], NULL, &job);
         const bool read = load(axes, &job, &scene, &row);
         scene.purpose = SCENE_FOR_CHART;
-        for (int t = 0; t < FIT_TERMS; t++) {
-            notes.count = 0;
-            scene_advise_key(&scene, terms[t].path, &notes);
-            axes->effect[m][t] =
-                read && notes.count == 0 && (!terms[t].inviscid || has_inviscid(&scene.world));
-        }
+        for (int t = 0; t < FIT_TERMS; t++)
+            axes->effect[m][t] = read && key_has_effect(&scene, terms[t].path, why) &&
+                                 (!terms[t].inviscid || has_inviscid(&scene.world));
     }
 }
 
@@ -274,8 +269,8 @@ static void reference_job(const FitAxes *axes, FitJob *job)
 /* Checks, before any run, that the reference can be loaded. */
 static bool check_reference(const FitAxes *axes, Error *error)
 {
-    static Scene scene;
-    static ChartRow row;
+    Scene scene;
+    ChartRow row;
     FitJob job;
     Error why;
     reference_job(axes, &job);
@@ -288,23 +283,19 @@ static bool check_reference(const FitAxes *axes, Error *error)
 /* Collects the notes on the unchanged scene. */
 static bool note_own(FitRuns *runs, Error *error)
 {
-    static Scene scene;
-    static ChartRow row;
+    Scene scene;
+    ChartRow row;
     const FitPoint own = own_point(runs->axes);
     FitJob job;
     fit_axes_job(runs->axes, &own, &job);
     return chart_prepare(&runs->axes->subject, &job.job, &scene, &row, &runs->own, error);
 }
 
-bool fit_runs_begin(const FitAxes *axes, const char *csv, bool quiet, FitRuns *runs, Error *error)
+bool fit_runs_begin(const FitAxes *axes, ExperimentRun *run, FitRuns *runs, Error *error)
 {
-    *runs = (FitRuns){.axes = axes, .csv = csv, .quiet = quiet, .floor = (double)NAN};
-    const Scene *scene = axes->scene;
-    runs->used.metric_count = scene->metric_count;
-    memcpy(runs->used.metrics, scene->metrics, sizeof runs->used.metrics);
-    runs->used.probe_count = scene->probes.count;
-    return chart_rows_read(&runs->kept, csv, stderr, error) && check_reference(axes, error) &&
-           note_own(runs, error);
+    *runs = (FitRuns){.axes = axes, .run = run, .quiet = run->args->quiet, .floor = (double)NAN};
+    runs->used = chart_rows_of(&run->rows, axes->scene);
+    return check_reference(axes, error) && note_own(runs, error);
 }
 
 /* Runs shorter than SHORT, s, are timed TIMINGS times in total, and the least time counts: otherwise
@@ -323,9 +314,8 @@ static bool run(FitRuns *runs, const ChartJob *job, ChartRow *row)
     progress_begin(&progress, stderr, what, runs->quiet || !isatty(STDERR_FILENO));
     bool ok = true, again = true;
     for (int i = 0; ok && again && i < TIMINGS; i++) {
-        ok = chart_run(&runs->axes->subject, job, row, &progress, (double)i / TIMINGS, 1.0 / TIMINGS,
-                       &runs->error) &&
-             !interrupted();
+        const ProgressPart part = {&progress, (double)i / TIMINGS, 1.0 / TIMINGS};
+        ok = chart_run(&runs->axes->subject, job, row, &part, &runs->error) && !interrupted();
         again = job->role == CHART_POINT && row->seconds * time < SHORT; /* false for a broken run (NaN) */
         least = fmin(least, row->seconds);
     }
@@ -343,7 +333,7 @@ int fit_threads(const Scene *scene)
 /* Prepares a row. Its key includes the machine: times of another machine are not reused. */
 static bool prepare(const FitRuns *runs, const ChartJob *job, ChartRow *row, Notes *notes, Error *error)
 {
-    static Scene scene;
+    Scene scene;
     char machine[256];
     if (!chart_prepare(&runs->axes->subject, job, &scene, row, notes, error))
         return false;
@@ -357,7 +347,7 @@ static bool row_of(FitRuns *runs, const ChartJob *job, ChartRow *row)
 {
     if (!prepare(runs, job, row, NULL, &runs->error))
         return false;
-    const ChartRow *old = chart_rows_find(&runs->kept, row->key);
+    const ChartRow *old = trials_find(&runs->run->file, row->key);
     const bool there = old && old->outcome.kind != OUTCOME_NONE; /* no fault of the fluid: run again */
     if (there)
         *row = *old;
@@ -365,17 +355,12 @@ static bool row_of(FitRuns *runs, const ChartJob *job, ChartRow *row)
         return false;
     runs->there += there;
     runs->made += !there;
-    chart_rows_add(&runs->used, row, &runs->used);
-    if (!chart_rows_find(&runs->used, row->key))
+    if (!trials_add(&runs->run->rows, row, &runs->run->rows))
         return error_set(&runs->error,
                          "more than %d runs, which is all there is room for; fix some keys by --set, or "
                          "--method, and search the rest",
                          CHART_ROWS_MAX);
-    if (there)
-        return true;
-    chart_rows_add(&runs->kept, row, &runs->used);
-    chart_rows_merge(&runs->kept, runs->csv, &runs->used);
-    return chart_rows_write(&runs->kept, runs->csv, &runs->error);
+    return there || experiment_keep(runs->run, row, &runs->error);
 }
 
 /* Error of a row: for a scene the distance from the reference, for a case its own. */
@@ -403,7 +388,7 @@ static bool check_changes(FitRuns *runs, const ChartRow *row)
 
 bool fit_runs_floor(FitRuns *runs)
 {
-    static ChartRow row[REPEATS];
+    ChartRow row[REPEATS];
     const FitPoint own = own_point(runs->axes);
     FitJob job;
     fit_axes_job(runs->axes, &own, &job);
@@ -495,16 +480,15 @@ static bool is_warned(FitRuns *runs, const Notes *notes)
 /* Returns false also if another setting gives the same scene, by naming an existing value. */
 static bool exists(void *of, const FitPoint *point)
 {
-    static ChartRow row;
-    static Notes notes;
+    ChartRow row;
+    Notes notes = {.count = 0};
     FitRuns *runs = of;
     FitJob job;
     Error why;
     if (!fit_axes_job(runs->axes, point, &job))
         return false;
-    notes = (Notes){.count = 0};
     if (prepare(runs, &job.job, &row, &notes, &why))
-        return !chart_rows_find(&runs->used, row.key) && !is_warned(runs, &notes);
+        return !trials_find(&runs->run->rows, row.key) && !is_warned(runs, &notes);
     say_left_out(runs, why.message);
     return false;
 }
@@ -530,18 +514,18 @@ static bool holds(const ChartRow *row)
 
 static bool make(void *of, const FitPoint *point, double predicted, FitFigures *figures)
 {
-    static ChartRow row;
+    ChartRow row;
     FitRuns *runs = of;
     FitJob job;
     (void)predicted;
     if (!fit_axes_job(runs->axes, point, &job) || !row_of(runs, &job.job, &row))
         return false;
     row.error = error_of(runs, &row);
-    chart_rows_add(&runs->used, &row, &runs->used);
+    trials_add(&runs->run->rows, &row, NULL);
     *figures = (FitFigures){.cost = row.seconds,
                             .error = row.error,
                             .holds = holds(&row),
-                            .row = (int)(chart_rows_find(&runs->used, row.key) - runs->used.row)};
+                            .row = trials_place(&runs->run->rows, row.key)};
     say(runs, &row);
     return true;
 }
@@ -549,7 +533,7 @@ static bool make(void *of, const FitPoint *point, double predicted, FitFigures *
 /* Repeats a run with small jitters; and once three times as long. */
 static bool repeat(void *of, const FitPoint *point, const FitFigures *figures, double *worst, bool *all_hold)
 {
-    static ChartRow row;
+    ChartRow row;
     FitRuns *runs = of;
     FitJob job;
     fit_axes_job(runs->axes, point, &job);

@@ -59,9 +59,9 @@ static void fit_exchange(const CostSample *samples, int count, CostModel *model)
         b += bytes;
     }
     const double determinant = mm * bb - mb * mb;
-    const bool told_apart = determinant > 1e-9 * mm * bb;
-    double latency = told_apart ? (m * bb - b * mb) / determinant : 0;
-    double slowness = told_apart ? (b * mm - m * mb) / determinant : bb > 0 ? b / bb : 0;
+    const bool separable = determinant > 1e-9 * mm * bb;
+    double latency = separable ? (m * bb - b * mb) / determinant : 0;
+    double slowness = separable ? (b * mm - m * mb) / determinant : bb > 0 ? b / bb : 0;
     if (latency < 0) {
         latency = 0;
         slowness = b / bb;

@@ -2,8 +2,8 @@
 #ifndef APP_LAB_STABILITY_H
 #define APP_LAB_STABILITY_H
 
-#include "app/cli/args/args.h"
-#include "app/run/measure/outcome.h"
+#include "app/lab/experiment.h"
+#include "app/run/measure/measure.h"
 #include "app/scene/scene.h"
 #include "sim/base/key.h"
 #include "slosh/def.h"
@@ -52,12 +52,16 @@ typedef struct StableSeries {
     bool effect[STABLE_AXES]; /* true if the method reads the axis; if false, one cell is enough */
 } StableSeries;
 
+/* The options of `slosh stability`: Args.own. */
+typedef struct StabilityOptions {
+    const char *axes[ARGS_LIST_MAX]; /* "KEY=a:b"; ends with NULL */
+} StabilityOptions;
+
 typedef struct StablePlan {
     const Args *args;
     const char *scene_name;
     Scene scene; /* as set by the command line */
     Notes notes; /* of the scene */
-    char csv[1024];
     double time; /* simulated time of a trial, s */
     int threads; /* total of all processes */
     int axis_count;
@@ -117,42 +121,17 @@ typedef enum StableFinder {
 
 /* The outcome of a scene at one step. */
 typedef struct StableRow {
-    uint64_t key; /* hash of all inputs of the trial: app/lab/run_table.h */
+    uint64_t key; /* hash of all inputs of the trial */
     char method[NAME_SIZE], backend[NAME_SIZE];
-    int rung;           /* of the step: app/lab/stability.h */
+    int rung;           /* of the step */
+    double step;        /* s */
     char at[STABLE_AT]; /* "solver.sound_speed=14 fluids[0].viscosity=2" */
     uint64_t steps;     /* made */
     StableFinder finder;
     Outcome outcome;
 } StableRow;
 
-/* Ordered by key. Zero-initialise before use. */
-typedef struct StableRows {
-    size_t count, room;
-    StableRow *row;
-} StableRows;
-
-void stable_rows_free(StableRows *rows);
-
-/* Returns the row with the key, or NULL. */
-const StableRow *stable_rows_find(const StableRows *rows, uint64_t key);
-
-/* Adds a row, replacing the row with the same key. Returns false if memory is short. */
-bool stable_rows_add(StableRows *rows, const StableRow *row);
-
-/* Reads the sound rows of the file; zero rows if the file is missing or empty. Each unsound row, or a file
-   of another version, is reported to `warnings` (may be NULL). Returns false with the reason if the file
-   cannot be read or is no such table; such a file must not be replaced. */
-bool stable_rows_read(StableRows *rows, const char *path, FILE *warnings, Error *error);
-
-/* Adds the rows written to the file since it was read, by another map under the same name. Of two rows of
-   a trial, one ended by a look and one complete, the complete row stays. Returns false as
-   stable_rows_read. */
-bool stable_rows_merge(StableRows *rows, const char *path, Error *error);
-
-/* Writes all rows, ordered by method, backend, cell and step: the same rows give the same file. The file
-   is complete or not written at all. */
-bool stable_rows_write(const StableRows *rows, const char *path, Error *error);
+extern const TrialTable stable_table;
 
 /* The search for the largest stable step, independent of how trials are made. Steps lie on a ladder with
    STABLE_RUNGS rungs per factor of two. All searches use the same ladder, so that no trial depends on the
@@ -210,15 +189,14 @@ enum { STABLE_LOOKS = 16 };
 /* Makes the missing trials, on several processes. */
 
 /* Searches all cells, reusing the trials in `rows`. New trials are added to `rows` and written to the
-   plan's file, regularly and at the end. As many processes as the plan has threads take the cells one by
+   file, regularly and at the end. As many processes as the plan has threads take the cells one by
    one; the processes die with the caller. Returns false with the reason, or after a signal: the same
    command resumes. Call before making any world in the calling process: fork copies no threads. */
-bool stable_run(const StablePlan *plan, StableRows *rows, Error *error);
+bool stable_run(const StablePlan *plan, Trials *rows, const char *csv, Error *error);
 
 /* Repeats the search of a cell from the trials in `rows`. Returns false with the reason if a trial is
    missing, or the cell's scene cannot be simulated. */
-bool stable_recall(const StablePlan *plan, int cell, const StableRows *rows, StableSearch *search,
-                   Error *error);
+bool stable_recall(const StablePlan *plan, int cell, const Trials *rows, StableSearch *search, Error *error);
 
 /* Results of `slosh stability`: of each cell the largest stable step, the outcomes above, and the
    theoretical limits. */
@@ -240,7 +218,7 @@ typedef struct StableMap {
 
 /* Makes the map from the trials alone: the map does not depend on the order of the trials. Returns false
    if memory is short. */
-bool stable_map_make(const StablePlan *plan, const StableRows *rows, StableMap *map, Error *error);
+bool stable_map_make(const StablePlan *plan, const Trials *rows, StableMap *map, Error *error);
 void stable_map_free(StableMap *map);
 
 /* Returns an axis without effect on any searched cell, or -1. */
@@ -260,8 +238,8 @@ bool stable_draw(const StableMap *map, const char *path, Error *error);
 /* Prints one row per cell, and for each series the spread of its ratios. */
 void stable_print(const StableMap *map, FILE *file);
 
-/* Writes {"stability": SCENE, "time", "step", "axes": [...], "maps": [{"method", "backend", "cells":
-   [...]}], "error"}; unknown values are null. `failure`: why there is no map, or NULL. */
-bool stable_write_json(const StableMap *map, const char *failure, const char *path, Error *error);
+/* {"stability": SCENE, "time", "step", "axes": [...], "maps": [{"method", "backend", "cells": [...]}],
+   "error"}; unknown values are null. `failure`: why there is no map, or NULL. */
+json_t *stable_json(const StableMap *map, const char *failure);
 
 #endif

@@ -1,5 +1,6 @@
 #include "app/base/file.h"
-#include "app/bench/gnuplot.h"
+#include "app/base/program.h"
+#include "app/bench/plot.h"
 #include "app/lab/stability.h"
 
 #include <math.h>
@@ -9,9 +10,9 @@
 /* Returns the largest stable step, s; NaN if none holds. */
 static double stable_largest(const StableCellFound *found);
 
-static void find_cell(const StablePlan *plan, int number, const StableRows *rows, StableCellFound *found)
+static void find_cell(const StablePlan *plan, int number, const Trials *rows, StableCellFound *found)
 {
-    static Scene scene;
+    Scene scene;
     Error error = {{0}};
     *found = (StableCellFound){.cell = stable_cell(plan, number), .ratio = (double)NAN};
     found->searched = stable_scene(plan, found->cell, NULL, &scene, &error) &&
@@ -24,7 +25,7 @@ static void find_cell(const StablePlan *plan, int number, const StableRows *rows
         found->ratio = stable_largest(found) / found->limits.lattice;
 }
 
-bool stable_map_make(const StablePlan *plan, const StableRows *rows, StableMap *map, Error *error)
+bool stable_map_make(const StablePlan *plan, const Trials *rows, StableMap *map, Error *error)
 {
     const int count = stable_cells(plan);
     *map = (StableMap){.plan = plan, .found = calloc((size_t)count, sizeof *map->found)};
@@ -84,12 +85,6 @@ int stable_idle_axis(const StableMap *map)
     return -1;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 StableSpread stable_spread(const StableMap *map, int series)
 {
     StableSpread spread = {.least = (double)NAN, .median = (double)NAN, .most = (double)NAN};
@@ -107,7 +102,7 @@ StableSpread stable_spread(const StableMap *map, int series)
             ratios[spread.ratios++] = found->ratio;
     }
     if (spread.ratios > 0) {
-        qsort(ratios, (size_t)spread.ratios, sizeof *ratios, ascending);
+        qsort(ratios, (size_t)spread.ratios, sizeof *ratios, compare_numbers);
         spread.least = ratios[0];
         spread.median = ratios[spread.ratios / 2];
         spread.most = ratios[spread.ratios - 1];
@@ -185,13 +180,6 @@ static void print_spread(const StableMap *map, int series, FILE *file)
                 spread.cells);
 }
 
-/* Returns "viscosity" of "fluids[0].viscosity". */
-static const char *last_part(const char *key)
-{
-    const char *dot = strrchr(key, '.');
-    return dot ? dot + 1 : key;
-}
-
 void stable_print(const StableMap *map, FILE *file)
 {
     const StablePlan *plan = map->plan;
@@ -201,7 +189,7 @@ void stable_print(const StableMap *map, FILE *file)
             fprintf(file, "%s %.2f", i ? "," : "", stable_step(stable_above[i]));
         fprintf(file, " times the step\n");
         for (int a = 0; a < plan->axis_count; a++)
-            fprintf(file, "%12.12s ", last_part(plan->axis[a].key));
+            fprintf(file, "%12.12s ", key_last_part(plan->axis[a].key));
         fprintf(file, " %9s %9s %9s %9s %9s %9s %8s  %s\n", "holds", "sound", "friction", "courant", "force",
                 "viscous", "ratio", "above");
         for (int n = 0; n < map->count; n++)
@@ -276,18 +264,15 @@ static json_t *axes_json(const StablePlan *plan)
     return axes;
 }
 
-bool stable_write_json(const StableMap *map, const char *failure, const char *path, Error *error)
+json_t *stable_json(const StableMap *map, const char *failure)
 {
     const StablePlan *plan = map->plan;
     json_t *maps = json_array();
     for (int s = 0; s < plan->series_count; s++)
         json_array_append_new(maps, series_json(map, s));
-    json_t *all = json_pack("{s:s, s:f, s:s, s:o, s:o, s:s*}", "stability", plan->scene_name, "time",
-                            plan->time, "step", "mode fixed, a frame a step, the first trouble ends it",
-                            "axes", axes_json(plan), "maps", maps, "error", failure);
-    const bool written = json_file_write(all, path, error);
-    json_decref(all);
-    return written;
+    return json_pack("{s:s, s:f, s:s, s:o, s:o, s:s*}", "stability", plan->scene_name, "time", plan->time,
+                     "step", "mode fixed, a frame a step, the first trouble ends it", "axes", axes_json(plan),
+                     "maps", maps, "error", failure);
 }
 
 /* Draws the map of `slosh stability`: each cell's largest stable step, and the failures above. Over one
@@ -313,16 +298,21 @@ static const char *const kind_colours[OUTCOME_COUNT] = {
 
 typedef struct Drawing {
     const StableMap *map;
-    FILE *gnuplot;
-    int width, height;  /* px */
+    Plot *plot;
+    int series;         /* of the present panel */
     int row;            /* height of a row of panels with legends, px */
     double least, most; /* of the steps that hold, s */
 } Drawing;
 
-typedef struct CellPlace {
-    int series;
-    double left, top; /* of the panel's field, px */
-} CellPlace;
+/* The searched cells of the panel's series, one after the other; NULL after the last. */
+static const StableCellFound *next_cell(const Drawing *d, const StableCellFound *cell)
+{
+    const StableCellFound *end = d->map->found + d->map->count;
+    for (cell = cell ? cell + 1 : d->map->found; cell < end; cell++)
+        if (cell->cell.series == d->series && cell->searched)
+            return cell;
+    return NULL;
+}
 
 static void find_range(Drawing *d)
 {
@@ -346,89 +336,82 @@ static void colour_of(const Drawing *d, double step, char colour[8])
     snprintf(colour, 8, "#%02x%02x%02x", (unsigned)rgb[0], (unsigned)rgb[1], (unsigned)rgb[2]);
 }
 
-static void axis_title(const StableAxis *axis, char title[160])
-{
-    snprintf(title, 160, "%.95s%s%.32s", axis->key, *axis->row->unit ? ", " : "", axis->row->unit);
-}
-
 static void put_axis_title(const Drawing *d, const char *which, const StableAxis *axis)
 {
     char title[160];
-    axis_title(axis, title);
-    fprintf(d->gnuplot, "set %slabel ", which);
-    gnuplot_quote(d->gnuplot, title);
-    fputs(" noenhanced\n", d->gnuplot);
-}
-
-static void put_place(const Drawing *d, const CellPlace *place)
-{
-    const double left = place->left, top = place->top, w = d->width, h = d->height;
-    fprintf(d->gnuplot,
-            "set lmargin at screen %.5f\nset rmargin at screen %.5f\nset tmargin at screen %.5f\n"
-            "set bmargin at screen %.5f\nset key at screen %.5f,%.5f left top Left reverse noenhanced "
-            "maxcols 1 samplen 2 font ',9'\n",
-            left / w, (left + PANEL_WIDTH) / w, 1 - top / h, 1 - (top + PANEL_HEIGHT) / h, left / w,
-            1 - (top + LEGEND - PANEL_TOP) / h);
+    snprintf(title, sizeof title, "%.95s%s%.32s", axis->key, *axis->row->unit ? ", " : "", axis->row->unit);
+    plot_set(d->plot, which, title, " noenhanced");
 }
 
 /* Writes the method above its panel, and the ratios of measured to theoretical steps. */
-static void put_heading(const Drawing *d, const CellPlace *place)
+static void put_heading(const Drawing *d, double left, double top)
 {
-    const StableSeries *series = &d->map->plan->series[place->series];
-    const StableSpread spread = stable_spread(d->map, place->series);
+    const StableSeries *series = &d->map->plan->series[d->series];
+    const StableSpread spread = stable_spread(d->map, d->series);
     char text[160];
     size_t used = (size_t)snprintf(text, sizeof text, "%s, %s", series->method, series->backend);
     if (spread.ratios > 0)
         snprintf(text + used, sizeof text - used, ": measured / theory %.2f to %.2f, median %.2f",
                  spread.least, spread.most, spread.median);
-    fprintf(d->gnuplot, "set label 90 ");
-    gnuplot_quote(d->gnuplot, text);
-    fprintf(d->gnuplot, " at screen %.5f,%.5f left noenhanced font ',9' textcolor '#2a3440'\n",
-            place->left / d->width, 1 - (place->top - 12) / d->height);
+    plot_text(d->plot, left, top - 12, "left", 9, "#2a3440", text);
 }
 
 /* ---- kinds of outcome above the largest stable step ---- */
 
-static bool has_marks(const Drawing *d, int series, OutcomeKind kind, bool silent)
+/* Where a sample stands in its panel. */
+typedef void OfSample(const Drawing *d, const StableCellFound *found, int sample, double *x, double *y);
+
+/* Draws the samples of a kind; silent failures as open squares. Returns false if there are none; draws
+   nothing without a place. */
+static bool plot_kind(const Drawing *d, OutcomeKind kind, bool silent, OfSample *place)
 {
     bool any = false;
-    for (int n = 0; n < d->map->count; n++)
+    char title[96];
+    snprintf(title, sizeof title, "%s%s", outcome_word(kind),
+             silent                  ? ", which the sentinel does not find"
+             : kind == OUTCOME_HOLDS ? " again"
+                                     : "");
+    if (place)
+        plot_series(d->plot, title, "with points pt %d ps 0.7 lw 1.5 lc rgb '%s'", silent ? 4 : 5,
+                    kind_colours[kind]);
+    for (const StableCellFound *cell = NULL; (cell = next_cell(d, cell));)
         for (int i = 0; i < STABLE_ABOVE; i++) {
-            const StableCellFound *found = &d->map->found[n];
-            any |= found->searched && found->cell.series == series && found->search.above[i].kind == kind &&
-                   found->search.above[i].silent == silent;
+            double x, y;
+            if (cell->search.above[i].kind != kind || cell->search.above[i].silent != silent)
+                continue;
+            any = true;
+            if (!place)
+                continue;
+            place(d, cell, i, &x, &y);
+            plot_point(d->plot, x, y);
         }
     return any;
 }
 
-/* Plots the kinds present in a panel from data blocks `block`N, silent failures as open squares. */
-static void plot_kinds(const Drawing *d, int series, const char *block)
+/* Returns the count of kinds. */
+static int plot_kinds(const Drawing *d, OfSample *place)
 {
+    int kinds = 0;
     for (int kind = OUTCOME_HOLDS; kind < OUTCOME_COUNT; kind++)
         for (int silent = 0; silent < 2; silent++)
-            if (has_marks(d, series, (OutcomeKind)kind, silent))
-                fprintf(d->gnuplot,
-                        ", $%s%d%s using 1:2 with points pt %d ps 0.7 lw 1.5 lc rgb '%s' title '%s%s'", block,
-                        kind, silent ? "s" : "", silent ? 4 : 5, kind_colours[kind],
-                        outcome_word((OutcomeKind)kind),
-                        silent                  ? ", which the sentinel does not find"
-                        : kind == OUTCOME_HOLDS ? " again"
-                                                : "");
+            kinds += plot_kind(d, (OutcomeKind)kind, silent, place);
+    return kinds;
 }
 
 /* ---- two axes ---- */
 
 /* Tics in the middle of cells, as many as fit. */
-static void put_cell_tics(const Drawing *d, const char *which, const StableAxis *axis, double room)
+static void put_cell_tics(const Drawing *d, const char *which, const StableAxis *axis, double capacity)
 {
     double widest = 0;
+    FILE *gnuplot = plot_commands(d->plot);
     for (int i = 0; i < axis->count; i++)
         widest = fmax(widest, which[0] == 'x' ? label_width(axis->text[i], 11) : 14);
-    const int each = (int)fmax(1, ceil((widest + 4) * axis->count / room));
-    fprintf(d->gnuplot, "set %stics (", which);
+    const int each = (int)fmax(1, ceil((widest + 4) * axis->count / capacity));
+    fprintf(gnuplot, "set %srange [0:%d]\nset %stics (", which, axis->count, which);
     for (int i = 0; i < axis->count; i += each)
-        fprintf(d->gnuplot, "%s'%.4g' %g", i ? ", " : "", axis->value[i], i + 0.5);
-    fputs(")\n", d->gnuplot);
+        fprintf(gnuplot, "%s'%.4g' %g", i ? ", " : "", axis->value[i], i + 0.5);
+    fputs(")\n", gnuplot);
 }
 
 /* Text of a cell: the ratio to theory, or the step in ms for methods without a theoretical limit. */
@@ -446,209 +429,131 @@ static void cell_text(const StableCellFound *found, char text[16])
         snprintf(text, 16, "%s%.3g%s", more, 1000 * step, stable_uneven(found) ? "*" : "");
 }
 
-static void put_cells(const Drawing *d, const CellPlace *place)
+static void put_cells(const Drawing *d)
 {
     const StablePlan *plan = d->map->plan;
+    FILE *gnuplot = plot_commands(d->plot);
     const double wide = (double)PANEL_WIDTH / plan->axis[0].count,
                  high = (double)PANEL_HEIGHT / plan->axis[1].count;
-    int label = 100;
     for (int n = 0; n < d->map->count; n++) {
         const StableCellFound *found = &d->map->found[n];
         const double step = stable_largest(found);
         const int x = found->cell.at[0], y = found->cell.at[1];
         char colour[8] = "#e3e6ea", text[16];
-        if (found->cell.series != place->series)
+        if (found->cell.series != d->series)
             continue;
         if (isfinite(step))
             colour_of(d, step, colour);
         fprintf(
-            d->gnuplot,
+            gnuplot,
             "set object rectangle from first %d,%d to %d,%d fc rgb '%s' fs solid 1 border lc rgb '#ffffff' back\n",
             x, y, x + 1, y + 1, colour);
         cell_text(found, text);
         if (label_width(text, 9) + 2 < wide && high > 26)
-            fprintf(d->gnuplot,
-                    "set label %d '%s' at first %g,%g center noenhanced font ',9' textcolor '#2a3440'\n",
-                    label++, text, x + 0.5, y + 0.66);
+            fprintf(gnuplot,
+                    "set label '%s' at first %g,%g center noenhanced font ',9' textcolor '#2a3440'\n", text,
+                    x + 0.5, y + 0.66);
     }
 }
 
-/* Writes the marks of the samples: in a row at the foot of the cell, the shortest step on the left. */
-static void put_marks(const Drawing *d, const CellPlace *place, OutcomeKind kind, bool silent)
+/* In a row at the foot of the cell, the shortest step on the left. */
+static void in_cell(const Drawing *d, const StableCellFound *found, int sample, double *x, double *y)
 {
-    fprintf(d->gnuplot, "$marks%d%s << EOD\n", (int)kind, silent ? "s" : "");
-    for (int n = 0; n < d->map->count; n++) {
-        const StableCellFound *found = &d->map->found[n];
-        for (int i = 0; i < STABLE_ABOVE && found->searched && found->cell.series == place->series; i++)
-            if (found->search.above[i].kind == kind && found->search.above[i].silent == silent)
-                fprintf(d->gnuplot, "%g %g\n", found->cell.at[0] + (i + 1.0) / (STABLE_ABOVE + 1),
-                        found->cell.at[1] + 0.25);
-    }
-    fputs("EOD\n", d->gnuplot);
+    (void)d;
+    *x = found->cell.at[0] + (sample + 1.0) / (STABLE_ABOVE + 1);
+    *y = found->cell.at[1] + 0.25;
 }
 
-static void plot_map(const Drawing *d, const CellPlace *place)
+static void plot_map(const Drawing *d)
 {
     const StablePlan *plan = d->map->plan;
-    fprintf(d->gnuplot, "set xrange [0:%d]\nset yrange [0:%d]\n", plan->axis[0].count, plan->axis[1].count);
     put_cell_tics(d, "x", &plan->axis[0], PANEL_WIDTH);
     put_cell_tics(d, "y", &plan->axis[1], PANEL_HEIGHT);
-    put_axis_title(d, "x", &plan->axis[0]);
-    put_axis_title(d, "y", &plan->axis[1]);
-    put_cells(d, place);
-    for (int kind = OUTCOME_HOLDS; kind < OUTCOME_COUNT; kind++)
-        for (int silent = 0; silent < 2; silent++)
-            if (has_marks(d, place->series, (OutcomeKind)kind, silent))
-                put_marks(d, place, (OutcomeKind)kind, silent);
-    fputs("plot -1 notitle", d->gnuplot);
-    plot_kinds(d, place->series, "marks");
-    fputc('\n', d->gnuplot);
+    put_axis_title(d, "xlabel", &plan->axis[0]);
+    put_axis_title(d, "ylabel", &plan->axis[1]);
+    put_cells(d);
+    plot_function(d->plot, NULL, "-1");
+    plot_kinds(d, in_cell);
 }
 
 /* ---- one axis ---- */
 
-typedef double OfLimits(const StableLimits *limits);
-
-static double of_sound(const StableLimits *limits)
-{
-    return limits->sound;
-}
-
-static double of_friction(const StableLimits *limits)
-{
-    return limits->friction;
-}
-
-static double of_courant(const StableLimits *limits)
-{
-    return limits->courant;
-}
-
-static double of_force(const StableLimits *limits)
-{
-    return limits->force;
-}
-
-static double of_viscous(const StableLimits *limits)
-{
-    return limits->viscous;
-}
-
 static const struct LimitLine {
     const char *name, *style;
-    OfLimits *of;
+    size_t member;
 } limit_lines[] = {
-    {"sound on the lattice, 2 / omega", "lw 1.5 lc '#2a6f97'", of_sound},
-    {"friction on the lattice", "lw 1.5 lc '#b0457b'", of_friction},
-    {"Courant, 0.4 l / c", "lw 1.2 dt 2 lc '#2a6f97'", of_courant},
-    {"force, 0.25 sqrt(l / g)", "lw 1.2 dt 3 lc '#4f9d69'", of_force},
-    {"viscous, 0.125 l^2 / nu", "lw 1.2 dt 2 lc '#b0457b'", of_viscous},
+    {"sound on the lattice, 2 / omega", "lw 1.5 lc '#2a6f97'", offsetof(StableLimits, sound)},
+    {"friction on the lattice", "lw 1.5 lc '#b0457b'", offsetof(StableLimits, friction)},
+    {"Courant, 0.4 l / c", "lw 1.2 dt 2 lc '#2a6f97'", offsetof(StableLimits, courant)},
+    {"force, 0.25 sqrt(l / g)", "lw 1.2 dt 3 lc '#4f9d69'", offsetof(StableLimits, force)},
+    {"viscous, 0.125 l^2 / nu", "lw 1.2 dt 2 lc '#b0457b'", offsetof(StableLimits, viscous)},
 };
 enum { LIMIT_LINES = sizeof limit_lines / sizeof *limit_lines };
 
-/* Writes the steps of all samples of a kind, ms. */
-static void put_steps(const Drawing *d, int series, OutcomeKind kind, bool silent)
+static double value_of(const Drawing *d, const StableCellFound *found)
 {
-    fprintf(d->gnuplot, "$steps%d%s << EOD\n", (int)kind, silent ? "s" : "");
-    for (int n = 0; n < d->map->count; n++) {
-        const StableCellFound *found = &d->map->found[n];
-        const StableSearch *search = &found->search;
-        if (found->cell.series != series || !found->searched)
-            continue;
-        for (int i = 0; i < STABLE_ABOVE; i++)
-            if (search->above[i].kind == kind && search->above[i].silent == silent) {
-                fprintf(d->gnuplot, "%.9g %.9g\n", d->map->plan->axis[0].value[found->cell.at[0]],
-                        1000 * stable_step(stable_sample(search, i)));
-            }
-    }
-    fputs("EOD\n", d->gnuplot);
+    return d->map->plan->axis[0].value[found->cell.at[0]];
 }
 
-/* Writes one limit's line; returns the count of its points inside the frame. */
-static int put_limit(const Drawing *d, int series, int limit, double highest)
+static void at_step(const Drawing *d, const StableCellFound *found, int sample, double *x, double *y)
 {
-    int lines = 0;
-    fprintf(d->gnuplot, "$limit%d << EOD\n", limit);
-    for (int n = 0; n < d->map->count; n++) {
-        const StableCellFound *found = &d->map->found[n];
-        const double step = found->searched ? limit_lines[limit].of(&found->limits) : (double)INFINITY;
-        if (found->cell.series == series && isfinite(step)) {
-            fprintf(d->gnuplot, "%.9g %.9g\n", d->map->plan->axis[0].value[found->cell.at[0]], 1000 * step);
-            lines += step <= highest;
-        }
-    }
-    fputs("EOD\n", d->gnuplot);
-    return lines;
+    *x = value_of(d, found);
+    *y = 1000 * stable_step(stable_sample(&found->search, sample));
 }
 
-static int put_largest(const Drawing *d, int series)
+/* Draws a limit, or only its name if no point is below `highest`. */
+static void plot_limit(const Drawing *d, const struct LimitLine *line, double highest)
 {
-    int lines = 0;
-    fputs("$largest << EOD\n", d->gnuplot);
-    for (int n = 0; n < d->map->count; n++) {
-        const StableCellFound *found = &d->map->found[n];
-        if (found->cell.series == series && isfinite(stable_largest(found))) {
-            fprintf(d->gnuplot, "%.9g %.9g\n", d->map->plan->axis[0].value[found->cell.at[0]],
-                    1000 * stable_largest(found));
-            lines++;
-        }
+    bool inside = false;
+    char name[96];
+    plot_series(d->plot, line->name, "with lines %s", line->style);
+    for (const StableCellFound *cell = NULL; (cell = next_cell(d, cell));) {
+        const double step = *(const double *)(const void *)((const char *)&cell->limits + line->member);
+        if (isfinite(step))
+            plot_point(d->plot, value_of(d, cell), 1000 * step);
+        inside |= step <= highest;
     }
-    fputs("EOD\n", d->gnuplot);
-    return lines;
+    if (inside)
+        return;
+    snprintf(name, sizeof name, "%s: beyond, or none", line->name);
+    plot_drop(d->plot);
+    plot_function(d->plot, name, "1 / 0 with lines %s", line->style);
 }
 
-/* Range: the trials and a factor of two around; theory may lie outside. */
-static double put_line_ranges(const Drawing *d, int series)
+/* Range: the trials and a factor of two around; theory may lie outside. Returns the longest step inside. */
+static double put_line_ranges(const Drawing *d)
 {
     const StableAxis *axis = &d->map->plan->axis[0];
     const double from = axis->value[0], to = axis->value[axis->count - 1], margin = 0.05 * (to - from);
     double low = (double)INFINITY, high = 0;
-    for (int n = 0; n < d->map->count; n++) {
-        const StableCellFound *found = &d->map->found[n];
-        if (found->cell.series != series || !found->searched)
-            continue;
-        const double step = stable_step(found->search.rung), lattice = found->limits.lattice;
-        low = fmin(low, fmin(step, found->limits.courant));
+    for (const StableCellFound *cell = NULL; (cell = next_cell(d, cell));) {
+        const double step = stable_step(cell->search.rung), lattice = cell->limits.lattice;
+        low = fmin(low, fmin(step, cell->limits.courant));
         high = fmax(high, fmax(2 * step, isfinite(lattice) ? lattice : 0));
     }
-    if (high > 0)
-        fprintf(d->gnuplot, "set yrange [%.9g:%.9g]\n", 500 * low, 2000 * high);
     if (axis->logarithmic)
-        fprintf(d->gnuplot, "set logscale x\nset xrange [%.9g:%.9g]\n", from / 1.15, to * 1.15);
+        plot_axis(d->plot, "x", from / 1.15, to * 1.15, true);
     else
-        fprintf(d->gnuplot, "set xrange [%.9g:%.9g]\n", from - margin, to + margin);
+        plot_axis(d->plot, "x", from - margin, to + margin, false);
+    if (high > 0)
+        plot_axis(d->plot, "y", 500 * low, 2000 * high, true);
     return 2 * high;
 }
 
-static void plot_line(const Drawing *d, const CellPlace *place)
+static void plot_line(const Drawing *d)
 {
-    const StableAxis *axis = &d->map->plan->axis[0];
-    int limits[LIMIT_LINES];
-    fputs("set logscale y\nset format xy '%g'\n", d->gnuplot);
-    const double highest = put_line_ranges(d, place->series);
-    put_axis_title(d, "x", axis);
-    fputs("set ylabel 'step, ms'\n", d->gnuplot);
-    for (int kind = OUTCOME_HOLDS; kind < OUTCOME_COUNT; kind++)
-        for (int silent = 0; silent < 2; silent++)
-            put_steps(d, place->series, (OutcomeKind)kind, silent);
+    const double highest = put_line_ranges(d);
+    put_axis_title(d, "xlabel", &d->map->plan->axis[0]);
+    plot_set(d->plot, "ylabel", "step, ms", "");
+    plot_function(d->plot, NULL, "1 / 0");
     for (int i = 0; i < LIMIT_LINES; i++)
-        limits[i] = put_limit(d, place->series, i, highest);
-    const int largest = put_largest(d, place->series);
-    fputs("plot 1 / 0 notitle", d->gnuplot);
-    for (int i = 0; i < LIMIT_LINES; i++)
-        if (limits[i] > 0)
-            fprintf(d->gnuplot, ", $limit%d using 1:2 with lines %s title '%s'", i, limit_lines[i].style,
-                    limit_lines[i].name);
-        else
-            fprintf(d->gnuplot, ", 1 / 0 with lines %s title '%s: beyond, or none'", limit_lines[i].style,
-                    limit_lines[i].name);
-    if (largest > 0)
-        fprintf(
-            d->gnuplot,
-            ", $largest using 1:2 with linespoints pt 7 ps 0.7 lw 2 lc rgb '%s' title 'largest step that holds'",
-            kind_colours[OUTCOME_HOLDS]);
-    plot_kinds(d, place->series, "steps");
-    fputc('\n', d->gnuplot);
+        plot_limit(d, &limit_lines[i], highest);
+    plot_series(d->plot, "largest step that holds", "with linespoints pt 7 ps 0.7 lw 2 lc rgb '%s'",
+                kind_colours[OUTCOME_HOLDS]);
+    for (const StableCellFound *cell = NULL; (cell = next_cell(d, cell));)
+        if (isfinite(stable_largest(cell)))
+            plot_point(d->plot, value_of(d, cell), 1000 * stable_largest(cell));
+    plot_kinds(d, at_step);
 }
 
 /* ---- the whole picture ---- */
@@ -656,8 +561,9 @@ static void plot_line(const Drawing *d, const CellPlace *place)
 static void put_titles(const Drawing *d)
 {
     const StablePlan *plan = d->map->plan;
-    const int most = d->width / 8;
-    char line[2][256];
+    const int most = d->plot->width / 8;
+    char line[2][256], cut[2][256];
+    const char *const titles[] = {cut[0], cut[1]};
     snprintf(line[0], sizeof line[0], "%.80s: the largest step that holds %.3g s", plan->scene_name,
              plan->time);
     if (plan->axis_count < 2)
@@ -668,39 +574,32 @@ static void put_titles(const Drawing *d)
             "colour: %.3g ms (pale) to %.3g ms (blue); number: over that of theory, of methods without sound "
             "ms; squares: what is at 1.09, 1.3, 1.54 and 2 times the step",
             1000 * d->least, 1000 * d->most);
-    for (int i = 0; i < 2; i++) {
-        char cut[256];
-        snprintf(cut, sizeof cut, "%.*s", most * (i ? 3 : 2) / 2, line[i]);
-        fprintf(d->gnuplot, "set label %d ", 98 + i);
-        gnuplot_quote(d->gnuplot, cut);
-        fprintf(d->gnuplot, " at screen 0.5,%g center noenhanced font ',%d' textcolor '%s'\n",
-                1 - (i ? 40.0 : 18.0) / d->height, i ? 8 : 11, i ? "#5a6672" : "#2a3440");
-    }
+    for (int i = 0; i < 2; i++)
+        snprintf(cut[i], sizeof cut[i], "%.*s", most * (i ? 3 : 2) / 2, line[i]);
+    plot_titles(d->plot, titles, 2);
 }
 
-static void draw_series(const Drawing *d, int series)
+static void draw_series(const Drawing *d)
 {
-    const int row = series / 2, column = series % 2;
-    const CellPlace place = {
-        .series = series, .left = PANEL_LEFT + column * PANEL_PITCH, .top = PANEL_TOP + row * d->row};
-    put_place(d, &place);
-    put_heading(d, &place);
+    const int row = d->series / 2, left = PANEL_LEFT + d->series % 2 * PANEL_PITCH,
+              top = PANEL_TOP + row * d->row;
+    plot_panel(d->plot, (LabelBox){left, top, left + PANEL_WIDTH, top + PANEL_HEIGHT}, left,
+               top + LEGEND - PANEL_TOP);
+    put_heading(d, left, top);
     if (d->map->plan->axis_count == 2)
-        plot_map(d, &place);
+        plot_map(d);
     else
-        plot_line(d, &place);
-    fputs("unset label\nunset object\nunset logscale\nset yrange [*:*]\n", d->gnuplot);
+        plot_line(d);
+    plot_draw(d->plot, NULL);
+    fputs("set yrange [*:*]\n", d->plot->gnuplot);
 }
 
 /* Line count of the longest legend. */
-static int legend_lines(const Drawing *d)
+static int legend_lines(Drawing *d)
 {
     int most = 0;
-    for (int s = 0; s < d->map->plan->series_count; s++) {
-        int lines = d->map->plan->axis_count == 2 ? 0 : LIMIT_LINES + 1;
-        for (int kind = OUTCOME_HOLDS; kind < OUTCOME_COUNT; kind++)
-            for (int silent = 0; silent < 2; silent++)
-                lines += has_marks(d, s, (OutcomeKind)kind, silent);
+    for (d->series = 0; d->series < d->map->plan->series_count; d->series++) {
+        const int lines = plot_kinds(d, NULL) + (d->map->plan->axis_count == 2 ? 0 : LIMIT_LINES + 1);
         most = lines > most ? lines : most;
     }
     return most;
@@ -708,21 +607,16 @@ static int legend_lines(const Drawing *d)
 
 bool stable_draw(const StableMap *map, const char *path, Error *error)
 {
-    Gnuplot chart = {.gnuplot = NULL};
+    Plot plot = {.gnuplot = NULL};
     const int series = map->plan->series_count;
-    Drawing d = {.map = map,
-                 .width = series > 1 ? PANEL_LEFT + PANEL_PITCH + PANEL_WIDTH + 22 : WIDTH_OF_ONE,
-                 .height = 0};
+    Drawing d = {.map = map, .plot = &plot};
     d.row = LEGEND + legend_lines(&d) * LINE_HEIGHT + 16;
-    d.height = (series + 1) / 2 * d.row;
     find_range(&d);
-    if (!gnuplot_begin(&chart, path, d.width, d.height, error))
+    if (!plot_begin(&plot, path, series > 1 ? PANEL_LEFT + PANEL_PITCH + PANEL_WIDTH + 22 : WIDTH_OF_ONE,
+                    (series + 1) / 2 * d.row, error))
         return false;
-    d.gnuplot = chart.gnuplot;
-    fputs("set multiplot\n", d.gnuplot);
     put_titles(&d);
-    for (int s = 0; s < series; s++)
-        draw_series(&d, s);
-    fputs("unset multiplot\n", d.gnuplot);
-    return gnuplot_end(&chart, error);
+    for (d.series = 0; d.series < series; d.series++)
+        draw_series(&d);
+    return plot_end(&plot, error);
 }

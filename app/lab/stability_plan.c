@@ -1,24 +1,31 @@
 #include "app/base/program.h"
-#include "app/bench/gnuplot.h"
 #include "app/lab/error_chart.h"
 #include "app/lab/stability.h"
-#include "app/scene/keys.h"
 #include "app/scene/scene.h"
 #include "sim/def/fluids.h"
 #include "sim/kernel/kernel.h"
-#include "sim/start/seed.h"
+#include "sim/start/start.h"
+#include "sim/step/constants.h"
 #include "sim/step/method.h"
-#include "sim/step/step_control.h"
 
 #include <assert.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* Returns a start for the search: the lattice limit; without sound the step for pressure
-   (sim/step/step_control.h). */
+   (sim/step/constants.h). */
 static double stable_guess(const WorldDef *def, const StableLimits *limits);
+
+double stable_step(int rung)
+{
+    return exp2((double)rung / STABLE_RUNGS);
+}
+
+int stable_rung(double step)
+{
+    return (int)lround(STABLE_RUNGS * log2(step));
+}
 
 enum { POINTS = 8 };
 
@@ -274,63 +281,34 @@ void stable_at(const StablePlan *plan, StableCell cell, char *text, size_t size)
                                      plan->axis[a].text[cell.at[a]]);
 }
 
-/* The settings of the command line, with those of a cell added. */
-typedef struct CellSettings {
-    SceneSettings all;
-    char texts[16][STABLE_KEY + STABLE_VALUE + 16];
-    int used;
-} CellSettings;
-
-__attribute__((format(printf, 2, 3))) static void add(CellSettings *cell, const char *format, ...)
+static bool add_step(int rung, RunSettings *cell, Error *error)
 {
-    static const char OPTION[] = "--axis ";
-    char *text = cell->texts[cell->used++];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof cell->texts[0], format, arguments);
-    va_end(arguments);
-    const bool axis = strncmp(text, OPTION, sizeof OPTION - 1) == 0;
-    cell->all.said[cell->all.count] = axis ? text : NULL;
-    cell->all.set[cell->all.count++] = axis ? text + sizeof OPTION - 1 : text;
+    return run_settings_add(cell, error, "solver.step.mode=fixed") &&
+           run_settings_add(cell, error, "solver.step.dt=%.17g", stable_step(rung)) &&
+           run_settings_add(cell, error, "solver.step.substeps=1") &&
+           run_settings_add(cell, error, "solver.step.retries=1");
 }
 
-/* Adds the settings of the series, without the axes. */
-static void add_series(const StableSeries *series, CellSettings *cell)
+/* Begins with the settings of the command line and of the series, without the axes. */
+static bool begin(const StablePlan *plan, const StableSeries *series, RunSettings *cell, Error *error)
 {
-    add(cell, "solver.method=%s", series->method);
-    add(cell, "solver.backend=%s", series->backend);
-}
-
-static void add_step(int rung, CellSettings *cell)
-{
-    add(cell, "solver.step.mode=fixed");
-    add(cell, "solver.step.dt=%.17g", stable_step(rung));
-    add(cell, "solver.step.substeps=1");
-    add(cell, "solver.step.retries=1");
-}
-
-static bool begin(const StablePlan *plan, CellSettings *cell, Error *error)
-{
-    *cell = (CellSettings){.all = plan->args->settings};
+    *cell = (RunSettings){.all = plan->args->settings};
     cell->all.purpose = SCENE_FOR_CHART;
-    return cell->all.count + 16 <= SCENE_SETTINGS_MAX ||
-           error_set(error, "more than %d settings; write them into a scene file", SCENE_SETTINGS_MAX - 16);
+    return !series || (run_settings_add(cell, error, "solver.method=%s", series->method) &&
+                       run_settings_add(cell, error, "solver.backend=%s", series->backend));
 }
 
 bool stable_scene(const StablePlan *plan, StableCell cell, const int *rung, Scene *scene, Error *error)
 {
-    CellSettings settings;
-    if (!begin(plan, &settings, error))
-        return false;
+    RunSettings settings;
     const StableSeries *series = &plan->series[cell.series];
-    add_series(series, &settings);
-    for (int a = 0; a < plan->axis_count; a++)
-        if (series->effect[a])
-            add(&settings, "--axis %s=%s", plan->axis[a].key, plan->axis[a].text[cell.at[a]]);
-    add(&settings, "solver.threads=1");
-    if (rung)
-        add_step(*rung, &settings);
-    return scene_load(plan->scene_name, &settings.all, scene, NULL, error) && world_can(&scene->world, error);
+    bool ok = begin(plan, series, &settings, error);
+    for (int a = 0; ok && a < plan->axis_count; a++)
+        ok = !series->effect[a] || run_settings_add(&settings, error, "--axis %s=%s", plan->axis[a].key,
+                                                    plan->axis[a].text[cell.at[a]]);
+    return ok && run_settings_add(&settings, error, "solver.threads=1") &&
+           (!rung || add_step(*rung, &settings, error)) &&
+           scene_load(plan->scene_name, &settings.all, scene, NULL, error) && world_can(&scene->world, error);
 }
 
 void stable_range(const StablePlan *plan, const Scene *scene, int *first, int *most)
@@ -363,18 +341,16 @@ static bool find_series(StablePlan *plan, Error *error)
     m = m > 0 ? m : 1;
     b = b > 0 ? b : 1;
     for (int i = 0; i < m * b && plan->series_count < STABLE_SERIES; i++) {
-        static Scene scene;
-        CellSettings settings;
+        Scene scene;
+        RunSettings settings;
         StableSeries *series = &plan->series[plan->series_count];
         snprintf(series->method, NAME_SIZE, "%s", methods[i % m]);
         snprintf(series->backend, NAME_SIZE, "%s", backends[i / m]);
         if (is_there(plan, series))
             return error_set(error, "slosh stability: --sweep has method %s on %s twice; name it once",
                              series->method, series->backend);
-        if (!begin(plan, &settings, error))
-            return false;
-        add_series(series, &settings);
-        if (!scene_load(plan->scene_name, &settings.all, &scene, NULL, error))
+        if (!begin(plan, series, &settings, error) ||
+            !scene_load(plan->scene_name, &settings.all, &scene, NULL, error))
             return false;
         if (world_can(&scene.world, error))
             plan->series_count++;
@@ -387,8 +363,8 @@ static bool find_series(StablePlan *plan, Error *error)
 /* Finds the methods that read the axis; fails if none does. */
 static bool find_effect(StablePlan *plan, int a, Error *error)
 {
-    static Scene scene;
-    static Notes notes;
+    Scene scene;
+    char why[NOTE_SIZE];
     bool any = false;
     const StableAxis *axis = &plan->axis[a];
     for (int s = 0; s < plan->series_count; s++) {
@@ -397,13 +373,10 @@ static bool find_effect(StablePlan *plan, int a, Error *error)
         series->effect[a] = false;
         if (!stable_scene(plan, cell, NULL, &scene, error))
             return false;
-        notes.count = 0;
-        scene_advise_key(&scene, axis->key, &notes);
-        series->effect[a] = notes.count == 0;
+        series->effect[a] = key_has_effect(&scene, axis->key, why);
         any |= series->effect[a];
-        if (notes.count > 0)
-            fprintf(stderr, "%s changes nothing with method %s: %s\n", axis->key, series->method,
-                    notes.line[0]);
+        if (!series->effect[a])
+            fprintf(stderr, "%s changes nothing with method %s: %s\n", axis->key, series->method, why);
     }
     return any || error_set(error,
                             "slosh stability: --axis %s changes nothing: no method of the map reads it; name "
@@ -414,7 +387,7 @@ static bool find_effect(StablePlan *plan, int a, Error *error)
 /* Checks that the scene can be loaded at both ends of an axis. */
 static bool check_ends(const StablePlan *plan, int a, Error *error)
 {
-    static Scene scene;
+    Scene scene;
     bool ok = true;
     for (int end = 0; ok && end < 2; end++)
         for (int s = 0; ok && s < plan->series_count; s++) {
@@ -436,14 +409,18 @@ static void choose_axes(StablePlan *plan)
 static bool find_axes(StablePlan *plan, Error *error)
 {
     const Args *args = plan->args;
-    if (args->axis_count > STABLE_AXES)
+    const StabilityOptions *own = args->own;
+    int count = 0;
+    while (own->axes[count])
+        count++;
+    if (count > STABLE_AXES)
         return error_set(error, "slosh stability: a map has %d axes at most; leave out --axis %.60s",
-                         STABLE_AXES, args->axes[STABLE_AXES]);
-    for (int a = 0; a < args->axis_count; a++)
-        if (!stable_axis_parse(args->axes[a], &plan->axis[a], error))
+                         STABLE_AXES, own->axes[STABLE_AXES]);
+    for (int a = 0; a < count; a++)
+        if (!stable_axis_parse(own->axes[a], &plan->axis[a], error))
             return false;
-    plan->axis_count = args->axis_count;
-    if (args->axis_count == 0)
+    plan->axis_count = count;
+    if (count == 0)
         choose_axes(plan);
     if (plan->axis_count == 2 && strcmp(plan->axis[0].key, plan->axis[1].key) == 0)
         return error_set(error, "slosh stability: --axis %s stands there twice; name another key",
@@ -454,7 +431,7 @@ static bool find_axes(StablePlan *plan, Error *error)
                              "slosh stability: --particles %zu is a spacing of %.4g m, and the axis is the "
                              "spacing; %s",
                              args->settings.particles, plan->scene.world.spacing,
-                             args->axis_count > 0 ? "leave --particles out" : "name another --axis");
+                             count > 0 ? "leave --particles out" : "name another --axis");
     for (int a = 0; a < plan->axis_count; a++)
         if (!find_effect(plan, a, error) || !check_ends(plan, a, error))
             return false;
@@ -472,13 +449,13 @@ static double usual_time(const WorldDef *def)
 
 static bool find_scene(StablePlan *plan, Error *error)
 {
-    CellSettings settings;
+    RunSettings settings;
     const Args *args = plan->args;
-    if (!begin(plan, &settings, error) ||
+    if (!begin(plan, NULL, &settings, error) ||
         !scene_load(plan->scene_name, &settings.all, &plan->scene, &plan->notes, error))
         return false;
     plan->notes.count = plan->notes.lasting; /* the dropped notes are about an unused step */
-    plan->time = args->time_given ? args->time : usual_time(&plan->scene.world);
+    plan->time = args_given(args, "--time") ? args->time : usual_time(&plan->scene.world);
     const int threads = *world_threads(&plan->scene.world);
     plan->threads = threads > 0 ? threads : world_processors();
     return plan->time > 0 || error_set(error, "slosh stability: --time must be more than 0");
@@ -502,6 +479,6 @@ bool stable_plan_make(const Args *args, StablePlan *plan, Error *error)
     for (int s = 0; s < STABLE_SERIES; s++)
         for (int a = 0; a < STABLE_AXES; a++)
             plan->series[s].effect[a] = true;
-    return check_sweeps(args, error) && gnuplot_table_name(args->output, plan->csv, error) &&
-           find_scene(plan, error) && find_series(plan, error) && find_axes(plan, error);
+    return check_sweeps(args, error) && find_scene(plan, error) && find_series(plan, error) &&
+           find_axes(plan, error);
 }

@@ -1,12 +1,10 @@
 #include "app/base/program.h"
-#include "app/lab/run_table.h"
 #include "app/lab/stability.h"
-#include "app/run/measure/outcome.h"
+#include "app/run/measure/measure.h"
 #include "app/run/offscreen.h"
 #include "slosh/world.h"
 
 #include <errno.h>
-#include <inttypes.h>
 #include <math.h>
 #include <poll.h>
 #include <signal.h>
@@ -17,166 +15,39 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static const char HEAD[] =
-    "key,method,backend,rung,step_s,steps,found_by,outcome,outcome_s,outcome_words,at\n";
-
-/* Start of the head line of every such file, in all versions. */
-static const char OURS[] = "key,method,backend,rung,";
-
-static const char *const finders[STABLE_FINDER_COUNT] = {
+static const char *const finders[] = {
 #define X(NAME, word) word,
     STABLE_FINDERS(X)
 #undef X
+        NULL};
+
+static const TrialColumn columns[] = {
+    {"method", CELL_TEXT, CELL(StableRow, method)},
+    {"backend", CELL_TEXT, CELL(StableRow, backend)},
+    {"rung", CELL_INTEGER, CELL(StableRow, rung), .least = -400, .most = 100},
+    {"step_s", CELL_NUMBER, CELL(StableRow, step), .most = 1e6, .digits = 9},
+    {"steps", CELL_INTEGER, CELL(StableRow, steps), .most = 1e15},
+    {"found_by", CELL_WORD, CELL(StableRow, finder), .words = finders},
+    {"outcome", CELL_OUTCOME, CELL(StableRow, outcome)},
+    {"at", CELL_TEXT, CELL(StableRow, at), .flags = CELL_EMPTY},
+    {NULL},
 };
 
-static StableFinder finder_of(const char *word)
+static bool is_possible(const void *of)
 {
-    int finder = 0;
-    while (finder < STABLE_FINDER_COUNT && strcmp(finders[finder], word) != 0)
-        finder++;
-    return (StableFinder)finder;
-}
-
-void stable_rows_free(StableRows *rows)
-{
-    free(rows->row);
-    *rows = (StableRows){.count = 0};
-}
-
-/* Returns the index of the key, or its place of insertion. */
-static size_t place_of(const StableRows *rows, uint64_t key)
-{
-    size_t low = 0, high = rows->count;
-    while (low < high) {
-        const size_t middle = (low + high) / 2;
-        if (rows->row[middle].key < key)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-const StableRow *stable_rows_find(const StableRows *rows, uint64_t key)
-{
-    const size_t at = place_of(rows, key);
-    return at < rows->count && rows->row[at].key == key ? &rows->row[at] : NULL;
-}
-
-bool stable_rows_add(StableRows *rows, const StableRow *row)
-{
-    const size_t at = place_of(rows, row->key);
-    if (at < rows->count && rows->row[at].key == row->key) {
-        rows->row[at] = *row;
-        return true;
-    }
-    if (rows->count == rows->room) {
-        const size_t room = rows->room ? 2 * rows->room : 256;
-        StableRow *more = realloc(rows->row, room * sizeof *more);
-        if (!more)
-            return false;
-        rows->row = more;
-        rows->room = room;
-    }
-    memmove(&rows->row[at + 1], &rows->row[at], (rows->count - at) * sizeof *rows->row);
-    rows->row[at] = *row;
-    rows->count++;
-    return true;
-}
-
-static bool copy_name(char name[NAME_SIZE], const char *cell)
-{
-    return row_text(name, NAME_SIZE, cell) && *name;
-}
-
-static bool whole(const char *cell, double least, double most, double *number)
-{
-    return row_number(cell, number) && *number >= least && *number <= most;
-}
-
-/* Parses a line in the format of print_row; returns false if the line is unsound. */
-static bool parse_row(char *line, StableRow *row)
-{
-    enum { CELLS = 11 };
-    char *cells[CELLS], *at = line, *end;
-    double rung, step, steps;
-    if (!line[strcspn(line, "\n")])
-        return false;
-    line[strcspn(line, "\n")] = '\0';
-    for (int c = 0; c < CELLS; c++)
-        if (!(cells[c] = strsep(&at, ",")))
-            return false;
-    *row = (StableRow){.key = strtoull(cells[0], &end, 16)};
-    if (at || end != cells[0] + 16 || *end || !copy_name(row->method, cells[1]) ||
-        !copy_name(row->backend, cells[2]) || !whole(cells[3], -400, 100, &rung) ||
-        !whole(cells[4], 0, 1e6, &step) || !whole(cells[5], 0, 1e15, &steps) ||
-        !row_outcome(&cells[7], &row->outcome) || !row_text(row->at, STABLE_AT, cells[10]))
-        return false;
-    row->rung = (int)rung;
-    row->steps = (uint64_t)steps;
-    row->finder = finder_of(cells[6]);
-    return row->finder < STABLE_FINDER_COUNT && row->outcome.kind != OUTCOME_NONE &&
+    const StableRow *row = of;
+    return row->outcome.kind != OUTCOME_NONE &&
            (row->finder == FOUND_BY_NOBODY) == (row->outcome.kind == OUTCOME_HOLDS);
 }
 
-static bool read_rows(StableRows *rows, FILE *file, const char *path, FILE *warnings, Error *error)
+/* A complete trial replaces a trial ended by a look. */
+static bool knows_more(const void *other, const void *own)
 {
-    char *line = NULL;
-    size_t size = 0;
-    StableRow row;
-    bool ok = true;
-    for (int number = 2; ok && getline(&line, &size, file) > 0; number++) {
-        if (parse_row(line, &row))
-            ok = stable_rows_add(rows, &row) || error_set(error, "%s: no memory for its rows", path);
-        else if (warnings)
-            fprintf(
-                warnings,
-                "%s:%d: this row is none that slosh stability writes; it is left out, its trial made again\n",
-                path, number);
-    }
-    free(line);
-    return ok;
+    return ((const StableRow *)own)->finder == FOUND_BY_LOOK &&
+           ((const StableRow *)other)->finder != FOUND_BY_LOOK;
 }
 
-bool stable_rows_read(StableRows *rows, const char *path, FILE *warnings, Error *error)
-{
-    char *head = NULL;
-    size_t size = 0;
-    FILE *file = fopen(path, "r");
-    rows->count = 0;
-    if (!file)
-        return errno == ENOENT ||
-               error_set(error, "%s: cannot be read: %s; it is not replaced", path, strerror(errno));
-    const bool empty = getline(&head, &size, file) <= 0;
-    bool ok = empty || strncmp(head, OURS, sizeof OURS - 1) == 0;
-    if (!ok)
-        error_set(error,
-                  "%s: is there already, and no slosh stability wrote it; give the map another name, or move "
-                  "that file",
-                  path);
-    else if (!empty && strcmp(head, HEAD) == 0)
-        ok = read_rows(rows, file, path, warnings, error);
-    else if (!empty && warnings)
-        fprintf(warnings,
-                "%s: is of another version of slosh; its rows are left out, its trials made again\n", path);
-    free(head);
-    fclose(file);
-    return ok;
-}
-
-bool stable_rows_merge(StableRows *rows, const char *path, Error *error)
-{
-    StableRows others = {.count = 0};
-    bool ok = stable_rows_read(&others, path, NULL, error);
-    for (size_t i = 0; ok && i < others.count; i++) {
-        const StableRow *other = &others.row[i], *own = stable_rows_find(rows, other->key);
-        if (!own || (own->finder == FOUND_BY_LOOK && other->finder != FOUND_BY_LOOK))
-            ok = stable_rows_add(rows, other) || error_set(error, "%s: no memory for its rows", path);
-    }
-    stable_rows_free(&others);
-    return ok;
-}
-
+/* By method, backend, cell and step: the same rows give the same file. */
 static int order(const void *one, const void *other)
 {
     const StableRow *a = *(const StableRow *const *)one, *b = *(const StableRow *const *)other;
@@ -187,37 +58,18 @@ static int order(const void *one, const void *other)
     return way ? way : (a->key > b->key) - (a->key < b->key);
 }
 
-static void print_row(const StableRow *row, FILE *file)
-{
-    const Outcome *outcome = &row->outcome;
-    fprintf(file, "%016" PRIx64 ",%s,%s,%d,%.9g,%" PRIu64 ",%s,%s,%.9g,", row->key, row->method, row->backend,
-            row->rung, stable_step(row->rung), row->steps, finders[row->finder], outcome_word(outcome->kind),
-            outcome->time);
-    row_put_text(outcome->words, file);
-    for (const char *at = row->at; *at; at++)
-        fputc(*at == ',' ? '|' : *at, file);
-    fputc('\n', file);
-}
-
-static bool print_rows(const void *of, FILE *file)
-{
-    const StableRows *rows = of;
-    const StableRow **sorted = malloc((rows->count + 1) * sizeof *sorted);
-    for (size_t i = 0; sorted && i < rows->count; i++)
-        sorted[i] = &rows->row[i];
-    if (sorted && rows->count > 0)
-        qsort(sorted, rows->count, sizeof *sorted, order);
-    fputs(HEAD, file);
-    for (size_t i = 0; sorted && i < rows->count; i++)
-        print_row(sorted[i], file);
-    free(sorted);
-    return sorted != NULL;
-}
-
-bool stable_rows_write(const StableRows *rows, const char *path, Error *error)
-{
-    return rows_write(path, print_rows, rows, error);
-}
+const TrialTable stable_table = {
+    .who = "slosh stability",
+    .result = "map",
+    .trial = "trial",
+    .head = "key,method,backend,rung,step_s,steps,found_by,outcome,outcome_s,outcome_words,at\n",
+    .opening = "key,method,backend,rung,",
+    .row_size = sizeof(StableRow),
+    .columns = columns,
+    .possible = is_possible,
+    .replaces = knows_more,
+    .order = order,
+};
 
 typedef struct Trial {
     const Scene *scene;
@@ -297,16 +149,6 @@ static bool stable_trial(const Scene *scene, double until, bool whole, StableRow
 }
 
 const int stable_above[STABLE_ABOVE] = {1, 3, 5, 8};
-
-double stable_step(int rung)
-{
-    return exp2((double)rung / STABLE_RUNGS);
-}
-
-int stable_rung(double step)
-{
-    return (int)lround(STABLE_RUNGS * log2(step));
-}
 
 /* State of a search. */
 typedef struct Bracket {
@@ -417,10 +259,10 @@ bool stable_search(StableTry *attempt, void *context, int first, int most, Stabl
 
 typedef struct SearchWorker {
     const StablePlan *plan;
-    const StableRows *rows; /* known trials */
+    const Trials *rows; /* known trials */
     int number;
     StableCell cell;
-    StableRows *made; /* new trials are made, sent and added here (equal to `rows`); NULL: no new trials */
+    Trials *made; /* new trials are made, sent and added here (equal to `rows`); NULL: no new trials */
     int pipe;
     Headless **context;
     int threads; /* per trial */
@@ -453,7 +295,7 @@ static bool make_trial(const SearchWorker *seeker, Scene *scene, bool whole, Sta
     if (!stable_trial(scene, seeker->plan->time, whole, row, seeker->error))
         return false;
     message.row = *row;
-    if (!stable_rows_add(seeker->made, row))
+    if (!trials_add(seeker->made, row, NULL))
         return error_set(seeker->error, "no memory for the trials");
     return tell(seeker, &message) || error_set(seeker->error, "a trial cannot be told (%s)", strerror(errno));
 }
@@ -463,11 +305,11 @@ static const double START = 1e-3;
 
 static bool try_cell_rung(void *context, int rung, int start, bool whole, StableFound *found)
 {
-    static Scene scene;
+    Scene scene;
     const SearchWorker *seeker = context;
     const StableSeries *series = &seeker->plan->series[seeker->cell.series];
     char rest[64];
-    StableRow row = {.rung = rung};
+    StableRow row = {.rung = rung, .step = stable_step(rung)};
     if (!stable_scene(seeker->plan, seeker->cell, &rung, &scene, seeker->error))
         return false;
     scene.world.jitter += (scene.world.jitter < 0.25 ? START : -START) * start;
@@ -475,7 +317,7 @@ static bool try_cell_rung(void *context, int rung, int start, bool whole, Stable
     row.key = run_key_text(RUN_KEY, rest);
     if (!run_key_scene(&scene, false, &row.key, seeker->error))
         return false;
-    const StableRow *there = stable_rows_find(seeker->rows, row.key);
+    const StableRow *there = trials_find(seeker->rows, row.key);
     if (there && whole && there->finder == FOUND_BY_LOOK)
         there = NULL;
     snprintf(row.method, NAME_SIZE, "%s", series->method);
@@ -497,7 +339,7 @@ static bool try_cell_rung(void *context, int rung, int start, bool whole, Stable
 
 static bool seek(SearchWorker *seeker, StableSearch *search)
 {
-    static Scene scene;
+    Scene scene;
     int first, most;
     seeker->cell = stable_cell(seeker->plan, seeker->number);
     if (!stable_scene(seeker->plan, seeker->cell, NULL, &scene, seeker->error))
@@ -506,8 +348,7 @@ static bool seek(SearchWorker *seeker, StableSearch *search)
     return stable_search(try_cell_rung, seeker, first, most, search);
 }
 
-bool stable_recall(const StablePlan *plan, int cell, const StableRows *rows, StableSearch *search,
-                   Error *error)
+bool stable_recall(const StablePlan *plan, int cell, const Trials *rows, StableSearch *search, Error *error)
 {
     SearchWorker seeker = {.plan = plan, .rows = rows, .number = stable_searched(plan, cell), .error = error};
     return seek(&seeker, search);
@@ -516,7 +357,7 @@ bool stable_recall(const StablePlan *plan, int cell, const StableRows *rows, Sta
 /* ---- the processes ---- */
 
 /* Takes cells until none is left. Results go through the pipe; the exit code is 0. */
-static void work(const StablePlan *plan, StableRows *rows, int pipe, int *next, int threads)
+static void work(const StablePlan *plan, Trials *rows, int pipe, int *next, int threads)
 {
     Headless *context = NULL;
     const int all = stable_cells(plan);
@@ -541,14 +382,15 @@ static void work(const StablePlan *plan, StableRows *rows, int pipe, int *next, 
 
 typedef struct Workers {
     const StablePlan *plan;
-    StableRows *rows;
+    Trials *rows;
+    const char *csv;
     int count, pipe, *next;
     pid_t *pid;
     int done;    /* cells */
     int *trials; /* count per cell */
     bool dirty;  /* true: some rows are not in the file yet */
     double wrote_ms;
-    char told[1024]; /* the last failure, to report each once */
+    char reported[1024]; /* the last failure, to report each once */
 } Workers;
 
 static bool start(Workers *crew, Error *error)
@@ -587,8 +429,7 @@ static bool keep(Workers *crew, bool now, Error *error)
     if (!crew->dirty || (!now && wall_ms() < crew->wrote_ms + EVERY_MS))
         return true;
     crew->dirty = false;
-    const bool ok = stable_rows_merge(crew->rows, crew->plan->csv, error) &&
-                    stable_rows_write(crew->rows, crew->plan->csv, error);
+    const bool ok = trials_keep(crew->rows, crew->csv, NULL, error);
     crew->wrote_ms = wall_ms();
     return ok;
 }
@@ -598,13 +439,13 @@ static bool take(Workers *crew, const TrialMessage *message, Error *error)
     if (message->said == SAID_TRIAL) {
         crew->trials[message->cell]++;
         crew->dirty = true;
-        return stable_rows_add(crew->rows, &message->row) || error_set(error, "no memory for the trials");
+        return trials_add(crew->rows, &message->row, NULL) || error_set(error, "no memory for the trials");
     }
     crew->done++;
     crew->trials[message->cell] = 0;
-    if (message->said == SAID_FAILURE && strcmp(crew->told, message->error.message) != 0) {
-        snprintf(crew->told, sizeof crew->told, "%s", message->error.message);
-        fprintf(stderr, "not searched: %s\n", crew->told);
+    if (message->said == SAID_FAILURE && strcmp(crew->reported, message->error.message) != 0) {
+        snprintf(crew->reported, sizeof crew->reported, "%s", message->error.message);
+        fprintf(stderr, "not searched: %s\n", crew->reported);
     }
     return true;
 }
@@ -668,9 +509,9 @@ static bool end(Workers *crew, bool ok, Error *error)
     return ok;
 }
 
-bool stable_run(const StablePlan *plan, StableRows *rows, Error *error)
+bool stable_run(const StablePlan *plan, Trials *rows, const char *csv, Error *error)
 {
-    Workers crew = {.plan = plan, .rows = rows, .pipe = -1, .wrote_ms = wall_ms()};
+    Workers crew = {.plan = plan, .rows = rows, .csv = csv, .pipe = -1, .wrote_ms = wall_ms()};
     Progress progress;
     progress_begin(&progress, stderr, "stability", plan->args->quiet);
     bool ok = start(&crew, error);

@@ -1,126 +1,48 @@
 #include "app/lab/view_benchmark.h"
 
 #include "app/base/file.h"
-#include "app/base/output.h"
-#include "app/bench/gnuplot.h"
-#include "app/scene/keys.h"
+#include "app/bench/plot.h"
+#include "app/scene/scene.h"
 
-#include <errno.h>
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char HEAD[] = "key,view,settings,clock,ms_a_picture,rms,structure\n";
-static const char OURS[] = "key,view,";
+static const TrialColumn columns[] = {
+    {"view", CELL_TEXT, CELL(ViewRow, view)},
+    {"settings", CELL_TEXT, CELL(ViewRow, settings)},
+    {"clock", CELL_TEXT, CELL(ViewRow, clock)},
+    {"ms_a_picture", CELL_NUMBER, CELL(ViewRow, ms), .flags = CELL_OPEN, .digits = 17},
+    {"rms", CELL_NUMBER, CELL(ViewRow, error), .digits = 17},
+    {"structure", CELL_NUMBER, CELL(ViewRow, structure), .digits = 17},
+    {NULL},
+};
 
-static bool copy_text(char *text, size_t size, const char *cell)
+/* A picture that could not be drawn is tried again. */
+static bool is_drawn(const void *row)
 {
-    return cell && *cell && (size_t)snprintf(text, size, "%s", cell) < size;
+    return isfinite(((const ViewRow *)row)->ms);
 }
 
-static bool read_number(const char *cell, double *number)
-{
-    char *end = NULL;
-    *number = cell ? strtod(cell, &end) : 0;
-    return end && end != cell && !*end;
-}
+const TrialTable view_table = {
+    .who = "a chart of views",
+    .result = "chart",
+    .trial = "picture",
+    .head = "key,view,settings,clock,ms_a_picture,rms,structure\n",
+    .opening = "key,view,",
+    .row_size = sizeof(ViewRow),
+    .most = VIEW_ROWS_MAX,
+    .columns = columns,
+    .possible = is_drawn,
+};
 
-static bool parse_row(char *line, ViewRow *row)
+bool view_on_front(const Trials *rows, int row)
 {
-    char *at = line, *cells[7], *end;
-    line[strcspn(line, "\n")] = '\0';
-    for (int c = 0; c < 7; c++)
-        cells[c] = strsep(&at, ",");
-    *row = (ViewRow){0};
-    if (at || !cells[0])
-        return false;
-    row->key = strtoull(cells[0], &end, 16);
-    return end == cells[0] + 16 && !*end && copy_text(row->view, sizeof row->view, cells[1]) &&
-           copy_text(row->settings, sizeof row->settings, cells[2]) &&
-           copy_text(row->clock, sizeof row->clock, cells[3]) && read_number(cells[4], &row->ms) &&
-           read_number(cells[5], &row->error) && read_number(cells[6], &row->structure) && row->ms > 0 &&
-           row->error >= 0 && row->structure >= 0;
-}
-
-bool view_rows_read(ViewRows *rows, const char *path, FILE *warnings, Error *error)
-{
-    char *line = NULL;
-    size_t size = 0;
-    FILE *file = fopen(path, "r");
-    rows->count = 0;
-    if (!file)
-        return errno == ENOENT ||
-               error_set(error, "%s: cannot be read: %s; it is not replaced", path, strerror(errno));
-    const bool empty = getline(&line, &size, file) <= 0;
-    const bool ours = empty || strncmp(line, OURS, sizeof OURS - 1) == 0;
-    const bool same = !empty && strcmp(line, HEAD) == 0;
-    for (int number = 2; same && rows->count < VIEW_ROWS_MAX && getline(&line, &size, file) > 0; number++)
-        if (parse_row(line, &rows->row[rows->count]))
-            rows->count++;
-        else if (warnings)
-            fprintf(warnings,
-                    "%s:%d: this row is none that a chart of views writes; it is left out, its picture drawn "
-                    "again\n",
-                    path, number);
-    free(line);
-    fclose(file);
-    return ours || error_set(error,
-                             "%s: is there already, and no chart of views wrote it; give the chart another "
-                             "name, or move that file",
-                             path);
-}
-
-void view_rows_add(ViewRows *rows, const ViewRow *row)
-{
-    for (int i = 0; i < rows->count; i++)
-        if (rows->row[i].key == row->key) {
-            rows->row[i] = *row;
-            return;
-        }
-    if (rows->count == VIEW_ROWS_MAX)
-        memmove(&rows->row[0], &rows->row[1], (size_t)--rows->count * sizeof *rows->row);
-    rows->row[rows->count++] = *row;
-}
-
-bool view_rows_write(const ViewRows *rows, const char *path, Error *error)
-{
-    Output output = {0};
-    if (!output_begin(&output, path, error))
-        return false;
-    FILE *file = fopen(output.temp, "w");
-    if (file) {
-        fputs(HEAD, file);
-        for (int i = 0; i < rows->count; i++) {
-            const ViewRow *row = &rows->row[i];
-            if (isfinite(row->ms))
-                fprintf(file, "%016" PRIx64 ",%s,%s,%s,%.17g,%.17g,%.17g\n", row->key, row->view,
-                        row->settings, row->clock, row->ms, row->error, row->structure);
-        }
-        const bool whole = !ferror(file);
-        if (fclose(file) == 0 && whole)
-            return output_commit(&output, error);
-    }
-    error_set(error, "%s: cannot be written (%s)", path, strerror(errno));
-    output_discard(&output);
-    return false;
-}
-
-const ViewRow *view_rows_find(const ViewRows *rows, uint64_t key)
-{
-    for (int i = 0; i < rows->count; i++)
-        if (rows->row[i].key == key)
-            return &rows->row[i];
-    return NULL;
-}
-
-bool view_on_front(const ViewRows *rows, int row)
-{
-    const ViewRow *mine = &rows->row[row];
+    const ViewRow *mine = view_row(rows, row);
     if (!isfinite(mine->ms) || !isfinite(mine->error))
         return false;
     for (int i = 0; i < rows->count; i++) {
-        const ViewRow *other = &rows->row[i];
+        const ViewRow *other = view_row(rows, i);
         if (strcmp(other->view, mine->view) == 0 && other->ms <= mine->ms &&
             other->error <= VIEW_EQUAL * mine->error && (other->ms < mine->ms || other->error < mine->error))
             return false;
@@ -130,26 +52,15 @@ bool view_on_front(const ViewRows *rows, int row)
 
 static const char KIND[] = "view.kind=";
 
-static bool add_setting(SceneSettings *settings, const char *said, const char *set, Error *error)
-{
-    if (settings->count == SCENE_SETTINGS_MAX)
-        return error_set(error, "more than %d settings; write them into a scene file", SCENE_SETTINGS_MAX);
-    settings->said[settings->count] = said;
-    settings->set[settings->count++] = set;
-    return true;
-}
-
 static bool load(const ViewPlan *plan, const ViewJob *job, Scene *scene, Notes *notes, Error *error)
 {
-    SceneSettings settings = *plan->settings;
-    char kind[NAME_SIZE + sizeof KIND];
-    snprintf(kind, sizeof kind, "%s%s", KIND, job->kind->name);
-    bool ok = add_setting(&settings, NULL, kind, error) &&
-              add_setting(&settings, NULL, "view.legend=false", error) &&
-              add_setting(&settings, NULL, "view.box=false", error);
+    RunSettings settings = {.all = *plan->settings};
+    bool ok = run_settings_add(&settings, error, "%s%s", KIND, job->kind->name) &&
+              run_settings_add(&settings, error, "view.legend=false") &&
+              run_settings_add(&settings, error, "view.box=false");
     for (int i = 0; ok && i < job->set_count; i++)
-        ok = add_setting(&settings, job->set[i], job->set[i] + strlen("--set "), error);
-    return ok && scene_load(plan->scene, &settings, scene, notes, error);
+        ok = run_settings_add(&settings, error, "%s", job->set[i]);
+    return ok && scene_load(plan->scene, &settings.all, scene, notes, error);
 }
 
 bool view_job_scene(const ViewPlan *plan, const ViewJob *job, Scene *scene, Error *error)
@@ -198,20 +109,21 @@ static const char *end_of(const ViewGrade *grade, const char *now, bool finest)
 /* Adds a setting to the job; if `named`, job->name gets the last part of the key's path. */
 static bool job_set(ViewJob *job, const char *path, const char *value, bool named)
 {
-    const char *last = strrchr(path, '.') + 1;
     if (job->set_count == VIEW_SETS)
         return false;
     snprintf(job->set[job->set_count++], VIEW_SET_NAME, "--set %.40s=%.30s", path, value);
     if (named)
-        snprintf(job->name, sizeof job->name, "%.40s=%.30s", last, value);
+        snprintf(job->name, sizeof job->name, "%.40s=%.30s", key_last_part(path), value);
     return true;
 }
 
+/* Adds a job of the last reference. */
 static bool add_job(ViewPlan *plan, const ViewJob *job, Error *error)
 {
     if (plan->count == VIEW_JOBS_MAX)
         return error_set(error, "more than %d pictures; name one view by --set view.kind=...", VIEW_JOBS_MAX);
-    plan->jobs[plan->count++] = *job;
+    plan->jobs[plan->count] = *job;
+    plan->jobs[plan->count++].reference = plan->reference_count - 1;
     return true;
 }
 
@@ -220,7 +132,7 @@ static bool have_job(const ViewPlan *plan, const ViewJob *job)
 {
     for (int i = 0; i < plan->count; i++) {
         const ViewJob *other = &plan->jobs[i];
-        bool same = other->kind == job->kind && !other->reference && other->set_count == job->set_count;
+        bool same = other->kind == job->kind && other->set_count == job->set_count;
         for (int k = 0; same && k < job->set_count; k++)
             same = strcmp(other->set[k], job->set[k]) == 0;
         if (same)
@@ -262,13 +174,15 @@ static bool plan_grade(ViewPlan *plan, const ViewKind *kind, const ViewGrade *gr
 
 static bool plan_view(ViewPlan *plan, const ViewKind *kind, Error *error)
 {
-    static Scene scene;
-    ViewJob job = {.kind = kind, .name = "as it is"}, reference = {.kind = kind, .reference = true};
+    Scene scene;
+    ViewJob job = {.kind = kind, .name = "as it is"}, *reference = &plan->references[plan->reference_count];
     ViewJob coarse = {.kind = kind, .name = "all coarsest"}, fine = {.kind = kind, .name = "all finest"};
-    if (!view_job_scene(plan, &job, &scene, error))
+    if (plan->reference_count == VIEW_REFERENCES || !view_job_scene(plan, &job, &scene, error))
         return false;
-    all_at(&reference, &scene, true);
-    bool ok = add_job(plan, &reference, error) && add_job(plan, &job, error);
+    plan->reference_count++;
+    *reference = (ViewJob){.kind = kind};
+    all_at(reference, &scene, true);
+    bool ok = add_job(plan, &job, error);
     for (const ViewGrade *grade = kind->grades; ok && grade && grade->path; grade++)
         ok = plan_grade(plan, kind, grade, &scene, error);
     if (ok && all_at(&coarse, &scene, false) && !have_job(plan, &coarse)) /* may equal a single grade */
@@ -281,8 +195,8 @@ static bool plan_view(ViewPlan *plan, const ViewKind *kind, Error *error)
 /* Keeps the notes common to all views: a key read by one view has an effect. */
 static bool keep_common(const ViewPlan *plan, const ViewKind *kind, bool first, Notes *common, Error *error)
 {
-    static Scene scene;
-    static Notes notes;
+    Scene scene;
+    Notes notes;
     const ViewJob job = {.kind = kind};
     int kept = 0;
     if (!load(plan, &job, &scene, &notes, error))
@@ -312,7 +226,7 @@ bool view_plan_make(const Args *args, ViewPlan *plan, Error *error)
 {
     *plan = (ViewPlan){.scene = args->scenes[0], .settings = &args->settings};
     const char *name = named_view(&args->settings);
-    static Notes common;
+    Notes common;
     int views = 0;
     bool ok = true;
     for (int i = 0; ok && view_at(i); i++)
@@ -327,12 +241,12 @@ bool view_plan_make(const Args *args, ViewPlan *plan, Error *error)
 
 /* Reports of `slosh chart --views`: a table, JSON. */
 
-void view_rows_print(const ViewRows *rows, const ViewWords *words, FILE *file)
+void view_rows_print(const Trials *rows, const ViewWords *words, FILE *file)
 {
     fprintf(file, "%s\n%s\n%-10s %-28s %12s %10s %10s  %s\n", words->renderer, words->note, "view",
             "settings", "ms a picture", "rms", "structure", "clock");
     for (int i = 0; i < rows->count; i++) {
-        const ViewRow *row = &rows->row[i];
+        const ViewRow *row = view_row(rows, i);
         if (isfinite(row->ms))
             fprintf(file, "%-10s %-28s %12.4g %8.3g %% %8.3g %%  %s%s\n", row->view, row->settings, row->ms,
                     100 * row->error, 100 * row->structure, row->clock,
@@ -342,209 +256,100 @@ void view_rows_print(const ViewRows *rows, const ViewWords *words, FILE *file)
     }
 }
 
-static json_t *row_json(const ViewRows *rows, int i)
+json_t *view_row_json(const Trials *rows, int i)
 {
-    const ViewRow *row = &rows->row[i];
+    const ViewRow *row = view_row(rows, i);
     return json_pack("{s:s, s:s, s:o, s:o, s:o, s:s?, s:b}", "view", row->view, "settings", row->settings,
                      "ms", number_json(row->ms), "error", number_json(row->error), "structure",
                      number_json(row->structure), "clock", *row->clock ? row->clock : NULL, "front",
                      view_on_front(rows, i));
 }
 
-bool view_rows_write_json(const ViewRows *rows, const ViewFacts *facts, const char *failure, const char *path,
-                          Error *error)
-{
-    json_t *runs = json_array();
-    bool ok = runs != NULL;
-    for (int i = 0; ok && i < rows->count; i++)
-        ok = json_array_append_new(runs, row_json(rows, i)) == 0;
-    json_t *all =
-        ok ? json_pack("{s:s, s:s, s:[i, i], s:i, s:f, s:O, s:s*}", "views", facts->scene, "renderer",
-                       facts->renderer, "size", facts->width, facts->height, "supersampled", facts->factor,
-                       "time", facts->time, "runs", runs, "error", failure)
-           : NULL;
-    const bool written = json_file_write(all, path, error);
-    json_decref(all);
-    json_decref(runs);
-    return written;
-}
-
 /* The chart of `slosh chart --views`. */
 
 /* px */
-enum { WIDTH = 860, HEIGHT = 560, LEFT = 84, TOP = 76, RIGHT = 700, BOTTOM = 500, VIEWS_MAX = 16 };
-
-static const double LABEL_FONT = 8, LABEL_HEIGHT = 11;
-
-/* Logarithms to base 10 of the drawn values: ms, error. */
-typedef struct ChartFrame {
-    double low[2], high[2];
-    LabelField field;
-} ChartFrame;
+enum { WIDTH = 860, HEIGHT = 560, LEFT = 84, TOP = 76, RIGHT = 700, BOTTOM = 500 };
 
 static bool drawn(const ViewRow *row)
 {
     return row->ms > 0 && isfinite(row->ms) && row->error > 0 && isfinite(row->error);
 }
 
-static void chart_frame_make(const ViewRows *rows, ChartFrame *frame)
+/* True if the row is the first drawn one of its view. */
+static bool opens_view(const Trials *rows, int i)
 {
-    *frame = (ChartFrame){.low = {(double)INFINITY, (double)INFINITY},
-                          .high = {-(double)INFINITY, -(double)INFINITY},
-                          .field = {.frame = {LEFT, TOP, RIGHT, BOTTOM}}};
+    for (int k = 0; k < i; k++)
+        if (drawn(view_row(rows, k)) && strcmp(view_row(rows, k)->view, view_row(rows, i)->view) == 0)
+            return false;
+    return drawn(view_row(rows, i));
+}
+
+/* Sets the axes with a margin around the drawn pictures. */
+static void put_axes(Plot *plot, const Trials *rows)
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {0, 0};
     for (int i = 0; i < rows->count; i++)
-        for (int k = 0; k < 2 && drawn(&rows->row[i]); k++) {
-            const double value = log10(k ? rows->row[i].error : rows->row[i].ms);
-            frame->low[k] = fmin(frame->low[k], value);
-            frame->high[k] = fmax(frame->high[k], value);
+        for (int k = 0; k < 2 && drawn(view_row(rows, i)); k++) {
+            const double value = k ? view_row(rows, i)->error : view_row(rows, i)->ms;
+            low[k] = fmin(low[k], value);
+            high[k] = fmax(high[k], value);
         }
-    for (int k = 0; k < 2; k++) {
-        const double margin = 0.1 + 0.1 * (frame->high[k] - frame->low[k]);
-        frame->low[k] -= margin;
-        frame->high[k] += margin;
+    for (int k = 0; k < 2 && high[0] > 0; k++) {
+        const double margin = pow(10, 0.1) * pow(high[k] / low[k], 0.1);
+        plot_axis(plot, k ? "y" : "x", low[k] / margin, high[k] * margin, true);
     }
 }
 
-static double x_of(const ChartFrame *frame, const ViewRow *row)
+static int by_time(const void *a, const void *b)
 {
-    return LEFT + (RIGHT - LEFT) * (log10(row->ms) - frame->low[0]) / (frame->high[0] - frame->low[0]);
+    const ViewRow *x = *(const ViewRow *const *)a, *y = *(const ViewRow *const *)b;
+    return (x->ms > y->ms) - (x->ms < y->ms);
 }
 
-static double y_of(const ChartFrame *frame, const ViewRow *row)
+/* Draws the pictures of the view that opens with row `first`. */
+static void plot_pictures(Plot *plot, const Trials *rows, int first, int colour)
 {
-    return TOP + (BOTTOM - TOP) * (frame->high[1] - log10(row->error)) / (frame->high[1] - frame->low[1]);
+    const char *view = view_row(rows, first)->view;
+    plot_series(plot, view, "with points pt 7 ps 0.9 lt %d", colour);
+    for (int i = first; i < rows->count; i++)
+        if (drawn(view_row(rows, i)) && strcmp(view_row(rows, i)->view, view) == 0)
+            plot_point(plot, view_row(rows, i)->ms, view_row(rows, i)->error);
 }
 
-/* Numbers at 1, 2 and 5 of each power of ten. */
-static void put_axis(const char *name, double low, double high, FILE *gnuplot)
-{
-    static const double few[] = {1, 2, 5};
-    int tics = 0;
-    fprintf(gnuplot, "set %srange [%.9g:%.9g]\nset %stics (", name, pow(10, low), pow(10, high), name);
-    for (int power = (int)floor(low); power <= (int)ceil(high); power++)
-        for (int k = 0; k < 3; k++)
-            fprintf(gnuplot, "%s%.9g", tics++ ? ", " : "", few[k] * pow(10, power));
-    fputs(")\n", gnuplot);
-}
-
-static void put_words(const ViewWords *words, FILE *gnuplot)
-{
-    const char *const lines[] = {words->title, words->note, words->renderer};
-    for (int i = 0; i < 3; i++) {
-        fprintf(gnuplot, "set label %d ", 97 + i);
-        gnuplot_quote(gnuplot, lines[i]);
-        fprintf(gnuplot, " at screen 0.5,%g center noenhanced font ',%d' textcolor '%s'\n",
-                1 - (i ? 22.0 + 15 * i : 18.0) / HEIGHT, i ? 8 : 11, i ? "#5a6672" : "#2a3440");
-    }
-}
-
-/* Labels the front where there is room; a distant label gets a line to its point. */
-static void put_labels(const ViewRows *rows, ChartFrame *frame, FILE *gnuplot)
-{
-    for (int i = 0; i < rows->count; i++)
-        if (drawn(&rows->row[i]))
-            label_field_point(&frame->field, x_of(frame, &rows->row[i]), y_of(frame, &rows->row[i]));
-    for (int i = 0; i < rows->count; i++) {
-        const ViewRow *row = &rows->row[i];
-        LabelBox place;
-        if (!drawn(row) || !view_on_front(rows, i) ||
-            !label_place(&frame->field, x_of(frame, row), y_of(frame, row),
-                         label_width(row->settings, LABEL_FONT), LABEL_HEIGHT, &place))
-            continue;
-        const double x = x_of(frame, row), y = y_of(frame, row);
-        const double to_x = fmin(fmax(x, place.left), place.right),
-                     to_y = fmin(fmax(y, place.top), place.bottom);
-        fprintf(gnuplot, "set label %d ", 100 + i);
-        gnuplot_quote(gnuplot, row->settings);
-        fprintf(gnuplot, " at screen %.5f,%.5f center noenhanced font ',%g'\n",
-                0.5 * (place.left + place.right) / WIDTH, 1 - 0.5 * (place.top + place.bottom) / HEIGHT,
-                LABEL_FONT);
-        if (hypot(to_x - x, to_y - y) > 2 * LABEL_HEIGHT)
-            fprintf(gnuplot,
-                    "set arrow %d from screen %.5f,%.5f to screen %.5f,%.5f nohead lw 0.5 lc '#8795a3'\n",
-                    100 + i, x / WIDTH, 1 - y / HEIGHT, to_x / WIDTH, 1 - to_y / HEIGHT);
-    }
-}
-
-/* Collects the views in the order of their rows; returns their count. */
-static int views_of(const ViewRows *rows, const char *views[VIEWS_MAX])
-{
-    int count = 0;
-    for (int i = 0; i < rows->count; i++) {
-        int v = 0;
-        while (v < count && strcmp(views[v], rows->row[i].view) != 0)
-            v++;
-        if (v == count && count < VIEWS_MAX && drawn(&rows->row[i]))
-            views[count++] = rows->row[i].view;
-    }
-    return count;
-}
-
-/* Two blocks per view: all pictures, and the front in the order of time. */
-static void put_data(const ViewRows *rows, const char *view, int number, FILE *gnuplot)
+/* Draws and labels the front of that view, where there is room. */
+static void plot_front(Plot *plot, const Trials *rows, int first, int colour)
 {
     const ViewRow *front[VIEW_ROWS_MAX];
     int count = 0;
-    fprintf(gnuplot, "$view%d << EOD\n", number);
-    for (int i = 0; i < rows->count; i++) {
-        const ViewRow *row = &rows->row[i];
-        if (!drawn(row) || strcmp(row->view, view) != 0)
-            continue;
-        fprintf(gnuplot, "%.9g %.9g\n", row->ms, row->error);
-        if (!view_on_front(rows, i))
-            continue;
-        int at = count++;
-        for (; at > 0 && front[at - 1]->ms > row->ms; at--)
-            front[at] = front[at - 1];
-        front[at] = row;
-    }
-    fprintf(gnuplot, "EOD\n$front%d << EOD\n", number);
+    char title[NAME_SIZE + sizeof ", its best"];
+    for (int i = first; i < rows->count; i++)
+        if (drawn(view_row(rows, i)) && strcmp(view_row(rows, i)->view, view_row(rows, first)->view) == 0 &&
+            view_on_front(rows, i))
+            front[count++] = view_row(rows, i);
+    qsort(front, (size_t)count, sizeof *front, by_time);
     for (int i = 0; i < count; i++)
-        fprintf(gnuplot, "%.9g %.9g\n", front[i]->ms, front[i]->error);
-    fputs("EOD\n", gnuplot);
+        plot_label(plot, front[i]->ms, front[i]->error, front[i]->settings);
+    snprintf(title, sizeof title, "%s, its best", view_row(rows, first)->view);
+    plot_series(plot, title, "with lines lw 1.5 dt 2 lt %d", colour);
+    for (int i = 0; i < count; i++)
+        plot_point(plot, front[i]->ms, front[i]->error);
 }
 
-static void plot(const ViewRows *rows, FILE *gnuplot)
+bool view_rows_draw(const Trials *rows, const ViewWords *words, const char *path, Error *error)
 {
-    static ChartFrame frame;
-    const char *views[VIEWS_MAX];
-    const int count = views_of(rows, views);
-    if (count == 0) {
-        fputs("unset logscale\nset label 1 'no error more than 0' at graph 0.1,0.5\nplot [0:1] 0 notitle\n",
-              gnuplot);
-        return;
-    }
-    chart_frame_make(rows, &frame);
-    put_axis("x", frame.low[0], frame.high[0], gnuplot);
-    put_axis("y", frame.low[1], frame.high[1], gnuplot);
-    put_labels(rows, &frame, gnuplot);
-    for (int v = 0; v < count; v++)
-        put_data(rows, views[v], v, gnuplot);
-    fputs("plot ", gnuplot);
-    for (int v = 0; v < count; v++) {
-        fprintf(
-            gnuplot,
-            "%s$view%d using 1:2 with points pt 7 ps 0.9 lt %d title '%s', $front%d using 1:2 with lines lw "
-            "1.5 dt 2 lt %d title 'its best'",
-            v ? ", " : "", v, v + 1, views[v], v, v + 1);
-    }
-    fputc('\n', gnuplot);
-}
-
-bool view_rows_draw(const ViewRows *rows, const ViewWords *words, const char *path, Error *error)
-{
-    Gnuplot chart = {.gnuplot = NULL};
-    if (!gnuplot_begin(&chart, path, WIDTH, HEIGHT, error))
+    const char *const titles[] = {words->title, words->note, words->renderer};
+    Plot plot = {.gnuplot = NULL};
+    if (!plot_begin(&plot, path, WIDTH, HEIGHT, error))
         return false;
-    FILE *gnuplot = chart.gnuplot;
-    fprintf(
-        gnuplot,
-        "set logscale xy\nset format xy '%%g'\nset xlabel 'time a picture, ms'\nset ylabel 'error, rms of linear "
-        "light over white'\nset lmargin at screen %.5f\nset rmargin at screen %.5f\nset tmargin at screen "
-        "%.5f\nset bmargin at screen %.5f\nset key at screen %.5f,%.5f left top Left reverse noenhanced\n",
-        (double)LEFT / WIDTH, (double)RIGHT / WIDTH, 1 - (double)TOP / HEIGHT, 1 - (double)BOTTOM / HEIGHT,
-        (RIGHT + 12.0) / WIDTH, 1 - (double)TOP / HEIGHT);
-    put_words(words, gnuplot);
-    plot(rows, gnuplot);
-    return gnuplot_end(&chart, error);
+    plot_titles(&plot, titles, 3);
+    plot_panel(&plot, (LabelBox){LEFT, TOP, RIGHT, BOTTOM}, RIGHT + 12, TOP);
+    plot_set(&plot, "xlabel", "time a picture, ms", "");
+    plot_set(&plot, "ylabel", "error, rms of linear light over white", "");
+    put_axes(&plot, rows);
+    for (int fronts = 0; fronts < 2; fronts++) /* labels keep off the points of all views */
+        for (int i = 0, colour = 0; i < rows->count; i++)
+            if (opens_view(rows, i))
+                (fronts ? plot_front : plot_pictures)(&plot, rows, i, ++colour);
+    plot_draw(&plot, "no error more than 0");
+    return plot_end(&plot, error);
 }

@@ -2,7 +2,7 @@
 #ifndef APP_LAB_VIEW_BENCHMARK_H
 #define APP_LAB_VIEW_BENCHMARK_H
 
-#include "app/cli/args/args.h"
+#include "app/lab/experiment.h"
 #include "app/run/offscreen.h"
 #include "app/scene/scene.h"
 #include "render/frame/view.h"
@@ -52,8 +52,7 @@ typedef struct ViewPicture {
 bool view_picture_draw(const Scene *scene, World *world, int width, int height, int factor, bool timed,
                        ViewPicture *out, Error *error);
 
-/* One picture of `slosh chart --views`: its view, settings, drawing time and error. Rows are kept in a CSV
-   file, so that no picture is drawn twice. */
+/* One picture of `slosh chart --views`: its view, settings, drawing time and error. */
 
 enum { VIEW_ROWS_MAX = 192, VIEW_SETTINGS = 160 };
 
@@ -66,58 +65,41 @@ typedef struct ViewRow {
     double error, structure;      /* picture_rms and picture_structure from the view's reference; or NaN */
 } ViewRow;
 
-typedef struct ViewRows {
-    int count;
-    ViewRow row[VIEW_ROWS_MAX];
-} ViewRows;
+extern const TrialTable view_table;
 
-/* Reads the rows of an older run; zero rows if the file is missing. An unsound line is reported to
-   `warnings` and skipped. Returns false if the file cannot be read or was written by another program; such
-   a file must not be replaced. */
-bool view_rows_read(ViewRows *rows, const char *path, FILE *warnings, Error *error);
-
-/* Adds a row, replacing the row with the same key; if there is no room, the oldest row. */
-void view_rows_add(ViewRows *rows, const ViewRow *row);
-
-/* Writes all rows; the file is complete or not written at all. */
-bool view_rows_write(const ViewRows *rows, const char *path, Error *error);
-
-/* Returns the row with the key, or NULL. */
-const ViewRow *view_rows_find(const ViewRows *rows, uint64_t key);
+static inline ViewRow *view_row(const Trials *rows, int i)
+{
+    return trials_row(rows, i);
+}
 
 /* view_on_front: true if no other picture of the view is both cheaper and more accurate; errors within the
    factor VIEW_EQUAL count as equal. */
 #define VIEW_EQUAL 1.01
-bool view_on_front(const ViewRows *rows, int row);
+bool view_on_front(const Trials *rows, int row);
 
 typedef struct ViewWords {
     const char *title, *note, *renderer;
 } ViewWords;
 
 /* Draws the chart as FILE.svg or FILE.png: error over time, one colour per view. */
-bool view_rows_draw(const ViewRows *rows, const ViewWords *words, const char *path, Error *error);
+bool view_rows_draw(const Trials *rows, const ViewWords *words, const char *path, Error *error);
 
 /* Prints one line per row. */
-void view_rows_print(const ViewRows *rows, const ViewWords *words, FILE *file);
+void view_rows_print(const Trials *rows, const ViewWords *words, FILE *file);
 
-/* {"views": scene, "renderer", "size", "supersampled", "time", "runs": [...], "error": failure} */
-typedef struct ViewFacts {
-    const char *scene, *renderer;
-    int width, height, factor;
-    double time;
-} ViewFacts;
-bool view_rows_write_json(const ViewRows *rows, const ViewFacts *facts, const char *failure, const char *path,
-                          Error *error);
+/* A row for --json. */
+json_t *view_row_json(const Trials *rows, int i);
 
-/* Plan of `slosh chart --views`. Pictures of each view: the scene's own settings; each grade of each of
-   the view's keys (ViewKind.grades); all keys at their coarsest; all keys at their finest (both skipped if
-   equal to a single grade); and the reference, all keys at their finest and supersampled. */
+/* Plan of `slosh chart --views`. Each view has a picture with the scene's own settings, and
+   one with each grade of each of its keys (ViewKind.grades). Two more have all keys at the coarsest, and all
+   at the finest; they are skipped if equal to a single grade. The reference has all keys at the finest, and
+   is supersampled. */
 
-enum { VIEW_SETS = 12, VIEW_SET_NAME = 80, VIEW_JOBS_MAX = VIEW_ROWS_MAX };
+enum { VIEW_SETS = 12, VIEW_SET_NAME = 80, VIEW_JOBS_MAX = VIEW_ROWS_MAX, VIEW_REFERENCES = 16 };
 
 typedef struct ViewJob {
     const ViewKind *kind;
-    bool reference;
+    int reference; /* place in `references` */
     int set_count;
     char set[VIEW_SETS][VIEW_SET_NAME]; /* "--set key=value" */
     char name[VIEW_SETTINGS];           /* ViewRow.settings */
@@ -126,8 +108,8 @@ typedef struct ViewJob {
 typedef struct ViewPlan {
     const char *scene;             /* name for scene_load */
     const SceneSettings *settings; /* of the command line */
-    int count;                     /* the reference of a view comes before the view's other jobs */
-    ViewJob jobs[VIEW_JOBS_MAX];
+    int count, reference_count;
+    ViewJob jobs[VIEW_JOBS_MAX], references[VIEW_REFERENCES];
 } ViewPlan;
 
 /* Plans the view named on the command line (--set view.kind=...), or all views. */

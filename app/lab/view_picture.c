@@ -1,8 +1,9 @@
 /* after: Z. Wang, A. C. Bovik, H. R. Sheikh, E. P. Simoncelli, "Image quality assessment: from error
    visibility to structural similarity", 2004 */
+#include "app/base/program.h"
 #include "app/lab/view_benchmark.h"
 #include "app/run/offscreen.h"
-#include "sim/base/color.h"
+#include "sim/base/base.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -103,12 +104,6 @@ int view_picture_factor(int width, int height)
     return factor;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Time of all stages of a picture. */
 static double sum_of(const StageTimes *times)
 {
@@ -137,7 +132,7 @@ static bool draw_all(Offscreen *offscreen, World *world, GlTimer *timer, int pic
     while (known < drawn && gl_timer_drain(timer, &times))
         sums[known++] = sum_of(&times);
     const int first = known > WARM_UP ? WARM_UP : 0, count = known - first;
-    qsort(sums + first, (size_t)count, sizeof *sums, ascending);
+    qsort(sums + first, (size_t)count, sizeof *sums, compare_numbers);
     *ms = count > 0 ? sums[first] : (double)NAN; /* least time: other load of the machine only adds */
     return true;
 }

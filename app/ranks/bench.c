@@ -4,6 +4,7 @@
 #include "app/base/file.h"
 #include "app/base/program.h"
 #include "app/bench/bench.h"
+#include "app/cli/cli.h"
 #include "sim/ranks/ranks.h"
 
 #include <mpi.h>
@@ -38,19 +39,20 @@ typedef struct DistBench {
 
 static bool check_options(const Args *args, Error *error)
 {
-    const char *refused = args->table           ? "--table"
-                          : args->play          ? "--play"
-                          : args->micro         ? "--micro"
-                          : args->ablate        ? "--ablate"
-                          : args->sweep_count   ? "--sweep"
-                          : args->size_given    ? "--size"
-                          : args->output        ? "-o"
-                          : args->device        ? "--device"
-                          : args->shaders       ? "--shaders"
-                          : args->gpu >= 0      ? "--gpu"
-                          : args->seconds_given ? "--seconds"
-                          : args->clock         ? "--clock"
-                                                : NULL;
+    const BenchOptions *own = options_of_bench(args);
+    const char *refused = own->table                      ? "--table"
+                          : own->play                     ? "--play"
+                          : own->micro                    ? "--micro"
+                          : own->ablate                   ? "--ablate"
+                          : args->sweep_count             ? "--sweep"
+                          : args_given(args, "--size")    ? "--size"
+                          : args->output                  ? "-o"
+                          : args->device                  ? "--device"
+                          : args->shaders                 ? "--shaders"
+                          : args->gpu >= 0                ? "--gpu"
+                          : args_given(args, "--seconds") ? "--seconds"
+                          : own->clock                    ? "--clock"
+                                                          : NULL;
     if (refused)
         return error_set(error, "slosh-dist bench: it has no %s; leave it out, or use slosh bench", refused);
     if (args->scene_count != 1)
@@ -69,7 +71,7 @@ static double cores_each(const RankSession *ranks)
 {
     int here, processors;
     rank_session_machine(&here, &processors);
-    const int wanted = here * ranks->session.info.threads;
+    const int wanted = here * ranks->session.run.info.threads;
     return (double)(wanted < processors ? wanted : processors) / here;
 }
 
@@ -118,29 +120,33 @@ static bool gather(DistBench *bench, Error *error)
 static int measure(DistBench *bench, Error *error)
 {
     RankSession *ranks = &bench->ranks;
-    const int frames = bench->args->frames > 0 ? bench->args->frames : DEFAULT_FRAMES;
+    const int frames =
+        options_of_bench(bench->args)->frames > 0 ? options_of_bench(bench->args)->frames : DEFAULT_FRAMES;
     const double early =
-        bench->args->time_given ? bench->args->time - 1e-6 * ranks->session.scene.world.dt : 0;
+        args_given(bench->args, "--time") ? bench->args->time - 1e-6 * ranks->session.run.scene.world.dt : 0;
     RanksFigures before;
-    while (ranks->session.info.time < early) {
-        if (rank_session_interrupted())
+    while (ranks->session.run.info.time < early) {
+        if (session_interrupted(&ranks->session))
             return EXIT_INTERRUPTED;
-        if (!rank_session_frame(ranks, error))
+        if (!session_step(&ranks->session, error))
             return EXIT_FAILED;
     }
     ranks_figures(&before);
+    ranks->session.run.watch.next = UINT64_MAX; /* looks at all particles are no part of a step */
     MPI_Barrier(MPI_COMM_WORLD);
-    const uint64_t first = ranks->session.info.step;
+    const uint64_t first = ranks->session.run.info.step;
     const double began = MPI_Wtime();
     for (int k = 0; k < frames; k++) {
-        if (rank_session_interrupted())
+        if (session_interrupted(&ranks->session))
             return EXIT_INTERRUPTED;
-        if (!rank_session_frame(ranks, error))
+        if (!session_step(&ranks->session, error))
             return EXIT_FAILED;
     }
     bench->seconds = MPI_Wtime() - began;
-    bench->steps = ranks->session.info.step - first;
-    return gather(bench, error) ? 0 : EXIT_FAILED;
+    bench->steps = ranks->session.run.info.step - first;
+    const bool gathered = gather(bench, error);
+    rank_session_look(ranks);
+    return gathered ? 0 : EXIT_FAILED;
 }
 
 /* Greatest over mean compute. */
@@ -154,7 +160,7 @@ static double imbalance(const DistBench *bench)
 
 static double a_particle(const DistBench *bench, double bytes)
 {
-    const double count = (double)bench->ranks.session.info.count;
+    const double count = (double)bench->ranks.session.run.info.count;
     return count > 0 ? bytes * bench->ranks.size / count : 0;
 }
 
@@ -173,13 +179,14 @@ static void print_row(const char *name, const RankBench *r)
 
 static void print(const DistBench *bench)
 {
-    const WorldInfo *info = &bench->ranks.session.info;
+    const WorldInfo *info = &bench->ranks.session.run.info;
     const int size = bench->ranks.size;
     char name[16];
     printf("%s: %zu particle%s, %s, on %d rank%s of %d thread%s: %.3f ms a step, %llu steps to %.3g s\n",
-           bench->args->scenes[0], info->count, plural(info->count), bench->ranks.session.scene.world.method,
-           size, plural((size_t)size), info->threads, plural((size_t)info->threads),
-           1e3 * bench->seconds / (double)bench->steps, (unsigned long long)bench->steps, info->time);
+           bench->args->scenes[0], info->count, plural(info->count),
+           bench->ranks.session.run.scene.world.method, size, plural((size_t)size), info->threads,
+           plural((size_t)info->threads), 1e3 * bench->seconds / (double)bench->steps,
+           (unsigned long long)bench->steps, info->time);
     printf("  %s, %s\n", bench_processor(), host());
     printf("  a step, ms:                                       particles          sent\n");
     printf("  %-5s %9s %9s %9s %9s %9s %9s %9s %9s\n", "rank", "compute", "exchange", "balance", "wait",
@@ -205,18 +212,18 @@ static json_t *figures_json(const RankBench *of)
 
 static bool write_json(const DistBench *bench, Error *error)
 {
-    const WorldInfo *info = &bench->ranks.session.info;
+    const WorldInfo *info = &bench->ranks.session.run.info;
     json_t *ranks = json_array();
     for (int r = 0; r < bench->ranks.size; r++)
         json_array_append_new(ranks, figures_json(&bench->rank[r]));
     json_t *json = json_pack(
         "{s:s, s:s, s:s, s:s, s:i, s:i, s:i, s:I, s:I, s:f, s:f, s:b, s:f, s:f, s:f, s:o, s:o}", "scene",
         bench->args->scenes[0], "processor", bench_processor(), "host", host(), "method",
-        bench->ranks.session.scene.world.method, "dimensions", bench->ranks.session.scene.world.dimensions,
-        "ranks", bench->ranks.size, "threads", info->threads, "particles", (json_int_t)info->count, "steps",
-        (json_int_t)bench->steps, "time", info->time, "step", bench->seconds / (double)bench->steps,
-        "balance", bench->options->balance, "imbalance", imbalance(bench), "bytes_per_particle",
-        a_particle(bench, bench->mean.bytes), "resident_per_particle",
+        bench->ranks.session.run.scene.world.method, "dimensions",
+        bench->ranks.session.run.scene.world.dimensions, "ranks", bench->ranks.size, "threads", info->threads,
+        "particles", (json_int_t)info->count, "steps", (json_int_t)bench->steps, "time", info->time, "step",
+        bench->seconds / (double)bench->steps, "balance", bench->options->balance, "imbalance",
+        imbalance(bench), "bytes_per_particle", a_particle(bench, bench->mean.bytes), "resident_per_particle",
         a_particle(bench, bench->mean.resident), "mean", figures_json(&bench->mean), "rank", ranks);
     const bool ok = json_file_write(json, bench->args->json, error);
     json_decref(json);
@@ -241,9 +248,8 @@ static int report(const DistBench *bench, Error *error)
 
 int dist_bench(const Args *args, const DistOptions *options)
 {
-    static DistBench bench; /* a scene is large */
+    DistBench bench = {.args = args, .options = options};
     Error error = {{0}};
-    bench = (DistBench){.args = args, .options = options};
     rank_session_begin(&bench.ranks);
     int code =
         check_options(args, &error) ? rank_session_open(&bench.ranks, args, "bench", &error) : EXIT_USAGE;
@@ -254,6 +260,6 @@ int dist_bench(const Args *args, const DistOptions *options)
     if (code == 0)
         code = report(&bench, &error);
     free(bench.rank);
-    world_destroy(bench.ranks.session.world);
+    rank_session_close(&bench.ranks);
     return code;
 }

@@ -2,7 +2,7 @@
 
 #include "app/base/program.h"
 #include "app/cli/cli.h"
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 #include "sim/ranks/ranks.h"
 #include "sim/step/backend.h"
 
@@ -78,26 +78,56 @@ static int complain(const char *why)
     return EXIT_USAGE;
 }
 
+static int help(void)
+{
+    if (first())
+        fputs(usage, stdout);
+    return 0;
+}
+
+/* Refuses options of slosh run missing here. */
+static bool can_run(const Args *args, Error *error)
+{
+    if (args->device)
+        return error_set(error, "slosh-dist run: it has no --device yet; use slosh run");
+    return snapshot_series_check_name(args->output, error);
+}
+
+static int dist_run(const Args *args)
+{
+    RankSession ranks = {.rank = 0};
+    Error error = {{0}};
+    rank_session_begin(&ranks);
+    int code = can_run(args, &error) ? rank_session_open(&ranks, args, "run", &error) : EXIT_USAGE;
+    if (code == 0)
+        code = run_session(&ranks.session, args, &error);
+    else
+        rank_session_say(&ranks, error.message);
+    rank_session_close(&ranks);
+    return code;
+}
+
 static int command(int argc, char *argv[])
 {
-    static Args args;
+    Args args = {0};
     DistOptions options;
     Error error = {{0}};
-    if (argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "help") == 0)) {
-        if (first())
-            fputs(usage, stdout);
-        return 0;
-    }
+    if (argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "help") == 0))
+        return help();
     if (argc > 2 && strcmp(argv[1], "model") == 0)
         return first() ? dist_model(argc - 2, argv + 2) : 0;
     if (argc > 2 && strcmp(argv[1], "scaling") == 0)
         return first() ? dist_scaling(argc - 2, argv + 2) : 0;
     if (argc < 2 || (strcmp(argv[1], "run") != 0 && strcmp(argv[1], "bench") != 0))
         return complain(usage);
-    if (!dist_options(&argc, argv, &options, &error) || !args_parse(&cli_table, argc, argv, &args, &error))
+    if (!dist_options(&argc, argv, &options, &error) || !args_parse(cli_commands, argc, argv, &args, &error))
         return complain(error.message);
     ranks_balance(options.balance);
-    return args.command == COMMAND_RUN ? dist_run(&args) : dist_bench(&args, &options);
+    const int code = args.help                                ? help()
+                     : strcmp(args.command->name, "run") == 0 ? dist_run(&args)
+                                                              : dist_bench(&args, &options);
+    args_free(&args);
+    return code;
 }
 
 int main(int argc, char *argv[])

@@ -2,10 +2,12 @@
 #include "app/ranks/ranks.h"
 
 #include "app/base/program.h"
+#include "app/files/snapshot_hdf5.h"
+#include "sim/def/fluids.h"
 #include "sim/flow/flow.h"
 #include "sim/ranks/ranks.h"
 #include "sim/solids/solid.h"
-#include "sim/start/seed.h"
+#include "sim/start/start.h"
 
 #include <math.h>
 #include <mpi.h>
@@ -63,24 +65,22 @@ static size_t before(size_t count, size_t *all)
     return rank == 0 ? 0 : sum;
 }
 
-const SnapshotParallel *dist_parallel_file(void)
+static const SnapshotParallel *parallel_file(int rank)
 {
     static SnapshotParallel share = {.access = access_together,
                                      .transfer = transfer_together,
                                      .agree = dist_agree,
                                      .end = end_all,
                                      .tell = tell,
-                                     .held = ranks_owned,
                                      .before = before};
-    int rank;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     share.first = rank == 0;
     return &share;
 }
 
-/* Bytes, measured: per particle with columns, lists and saved states, for the method with most; extra per
-   particle while the initial state is made, whole on each rank; per cell; of the program with MPI. */
-static const double A_PARTICLE = 525, AT_THE_START = 25, A_CELL = 33, PROGRAM = 60e6;
+/* Bytes, measured: per particle with columns, lists, saved states and a look at the fluid, for the method
+   with most. Then the extra per particle while the initial state is made, whole on each rank; the bytes per
+   cell; and the bytes of the program with MPI. */
+static const double A_PARTICLE = 575, AT_THE_START = 25, A_CELL = 33, PROGRAM = 60e6;
 
 /* Ghosts of a rank: FACE n^(2/3) per face towards neighbours; FACES: faces of a rank in the middle of a
    pool; MOVERS: room for moving particles (sim/ranks). */
@@ -197,7 +197,15 @@ void rank_session_begin(RankSession *ranks)
 {
     MPI_Comm_rank(MPI_COMM_WORLD, &ranks->rank);
     MPI_Comm_size(MPI_COMM_WORLD, &ranks->size);
+    ranks->shared = (RunRanks){.size = ranks->size,
+                               .file = parallel_file(ranks->rank),
+                               .sum = reduce_sum,
+                               .most = reduce_most,
+                               .spread = ranks_spread,
+                               .gather = dist_gather,
+                               .user = &ranks->gathered};
     ranks->session.began_ms = wall_ms();
+    ranks->session.run.ranks = &ranks->shared;
     interrupt_install();
 }
 
@@ -247,7 +255,7 @@ static bool has_room(const RankSession *ranks, const Args *args, double physical
     char words[256];
     int here, processors;
     rank_session_machine(&here, &processors);
-    const DistMemory memory = dist_memory_estimate(&ranks->session.scene, physical, here);
+    const DistMemory memory = dist_memory_estimate(&ranks->session.run.scene, physical, here);
     if (!dist_memory_fits(&memory, ranks->size, error))
         return false;
     snprintf(words, sizeof words, "about %.2g GB of memory a rank, of %.3g GB that one on %s may have",
@@ -257,15 +265,27 @@ static bool has_room(const RankSession *ranks, const Args *args, double physical
     return true;
 }
 
+/* The mean of a body's forces stays where bodies go over the ranks. */
+static void tell_of_curvature(const RankSession *ranks, const WorldDef *def, Notes *notes)
+{
+    bool tense = false;
+    for (int f = 0; f < def->fluid_count; f++)
+        tense |= def->fluids[f].surface_tension > 0;
+    if (tense && def->tension_model == TENSION_CURVATURE && ranks->size > 1)
+        notes_add(notes,
+                  "solver.surface_tension: curvature: on several ranks surface tension may push a body of "
+                  "fluid as a whole, and a drop drifts; slosh run takes that push away");
+}
+
 int rank_session_open(RankSession *ranks, const Args *args, const char *command, Error *error)
 {
     Notes notes;
     SceneSettings settings = args->settings;
     const double physical = memory_bytes();
     memory_ignore_limit();
-    if (!scene_load(args->scenes[0], &settings, &ranks->session.scene, &notes, error))
+    if (!scene_load(args->scenes[0], &settings, &ranks->session.run.scene, &notes, error))
         return EXIT_USAGE;
-    WorldDef def = ranks->session.scene.world;
+    WorldDef def = ranks->session.run.scene.world;
     if (strcmp(def.backend, "cpu") != 0) {
         error_set(error, "slosh-dist %s: it has backend cpu alone, not %s; use slosh %s, or --backend cpu",
                   command, def.backend, command);
@@ -273,42 +293,30 @@ int rank_session_open(RankSession *ranks, const Args *args, const char *command,
     }
     if (!has_room(ranks, args, physical, error))
         return EXIT_USAGE;
+    tell_of_curvature(ranks, &def, &notes);
     if (ranks->rank == 0)
         notes_print(&notes, stderr);
     snprintf(def.backend, sizeof def.backend, "%s", RANKS_BACKEND);
     if (*world_threads(&def) == 0)
         *world_threads(&def) = threads_each();
     tell_of_binding(ranks, *world_threads(&def));
-    ranks->session.world = world_create(&def, error);
-    if (!ranks->session.world)
-        return EXIT_USAGE;
-    world_info(ranks->session.world, &ranks->session.info);
-    return 0;
+    ranks->session.run.watch = (FluidWatch){.closed = true, .sum = reduce_sum};
+    return run_begin(&ranks->session.run, &def, error) ? 0 : EXIT_USAGE;
 }
 
-bool rank_session_interrupted(void)
+void rank_session_close(RankSession *ranks)
 {
-    int any = interrupted();
-    MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-    return any;
+    session_close(&ranks->session);
+    dist_gather_free(&ranks->gathered);
 }
 
-bool rank_session_substep(RankSession *ranks, Error *error)
+static void say(void *user, const char *words)
 {
-    char words[256];
-    Session *session = &ranks->session;
-    const bool ok = world_substep(session->world, NULL, error);
-    world_info(session->world, &session->info);
-    if (session_trouble_is_new(&session->reported_trouble, &session->info.trouble))
-        rank_session_say(ranks, session_trouble_text(&session->info.trouble, words));
-    return ok;
+    rank_session_say(user, words);
 }
 
-bool rank_session_frame(RankSession *ranks, Error *error)
+void rank_session_look(RankSession *ranks)
 {
-    bool ok = true;
-    do
-        ok = rank_session_substep(ranks, error);
-    while (ok && ranks->session.info.within_frame);
-    return ok;
+    ranks->session.run.watch.next = 0;
+    run_look(&ranks->session.run, say, ranks);
 }

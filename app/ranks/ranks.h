@@ -2,12 +2,10 @@
 #ifndef APP_RANKS_RANKS_H
 #define APP_RANKS_RANKS_H
 
-#include "app/bench/gnuplot.h"
+#include "app/bench/plot.h"
 #include "app/cli/args/args.h"
-#include "app/files/forces_log.h"
-#include "app/files/snapshot_hdf5.h"
 #include "app/lab/scaling.h"
-#include "app/run/measure/probe.h"
+#include "app/run/measure/measure.h"
 #include "app/run/session.h"
 #include "app/scene/scene.h"
 #include "slosh/error.h"
@@ -19,11 +17,29 @@ typedef struct DistOptions {
     bool balance; /* --balance on|off: shares follow the ranks' times; default on */
 } DistOptions;
 
-/* The scene of a command line as a world on all ranks. Zero-initialise before use. All functions except
-   rank_session_say are collective. */
+/* Gathers the particles read by probes, of all ranks, on the first rank. */
+
+/* Zero-initialise before use. */
+typedef struct Gathered {
+    Cloud cloud;    /* on the first rank: in the order of a single process, so that sums have the same bits */
+    Cloud own;      /* the rank's own particles */
+    void *out, *in; /* records sent to, and received on, the first rank */
+    ParticleId *id;
+    uint32_t *cell;
+    size_t own_capacity, out_capacity, in_capacity, cloud_capacity; /* capacity, particles */
+} Gathered;
+
+/* As RunRanks.gather; `user`: a Gathered. Ends all ranks if memory is short. */
+const Cloud *dist_gather(void *user, const Probes *probes, World *world);
+void dist_gather_free(Gathered *gathered);
+
+/* The scene of a command line as a world on all ranks. Zero-initialise before use, and do not move. All
+   functions except rank_session_say are collective. */
 
 typedef struct RankSession {
     Session session; /* like slosh run's on each rank; the scene has the backend named in the file */
+    RunRanks shared; /* of the session's run */
+    Gathered gathered;
     int rank, size;
 } RankSession;
 
@@ -32,24 +48,16 @@ void rank_session_begin(RankSession *ranks);
 
 /* Opens the scene. Returns 0, or the exit code with the reason. */
 int rank_session_open(RankSession *ranks, const Args *args, const char *command, Error *error);
+void rank_session_close(RankSession *ranks);
 
-/* Make one step, with the sentinel's check; all steps of a frame. */
-bool rank_session_substep(RankSession *ranks, Error *error);
-bool rank_session_frame(RankSession *ranks, Error *error);
-
-/* Returns true if any rank got a stop signal. */
-bool rank_session_interrupted(void);
+/* Looks at the present state, at the end of a frame, for failures of the fluid. */
+void rank_session_look(RankSession *ranks);
 
 /* Prints on standard error, on the first rank only. */
 void rank_session_say(const RankSession *ranks, const char *words);
 
 /* Counts the ranks on this rank's machine, and their usable processors. */
 void rank_session_machine(int *ranks, int *processors);
-
-/* A snapshot file shared by all ranks. */
-
-/* Returns the callbacks; call after MPI_Init. The particles are those of the last made world. */
-const SnapshotParallel *dist_parallel_file(void);
 
 /* Collective: returns true if `ok` on all ranks; else all ranks get the error of the first failing rank. */
 bool dist_agree(bool ok, Error *error);
@@ -62,31 +70,6 @@ typedef struct DistMemory {
     double allowed;   /* bytes: least allowance of any rank */
     char machine[64]; /* machine of that rank */
 } DistMemory;
-
-/* Gathers the particles read by probes, of all ranks, on the first rank. */
-
-/* Zero-initialise before use. */
-typedef struct Gathered {
-    Cloud cloud;    /* on the first rank: in the order of a single process, so that sums have the same bits */
-    Cloud own;      /* the rank's own particles */
-    void *out, *in; /* records sent to, and received on, the first rank */
-    ParticleId *id;
-    uint32_t *cell;
-    size_t own_room, out_room, in_room, cloud_room; /* capacity, particles */
-} Gathered;
-
-/* --probes of slosh-dist run: the first rank writes, from particles of all ranks. All functions are
-   collective, do nothing without --probes, and fail on all ranks or on none. */
-
-/* Zero-initialise before use. */
-typedef struct DistProbes {
-    Probes *probes; /* NULL: no --probes */
-    Gathered gathered;
-    ProbeSeries series; /* on the first rank */
-} DistProbes;
-
-/* --forces of slosh-dist run: all ranks sum up, the first rank writes. All functions are collective, do
-   nothing without --forces, and fail on all ranks or on none. */
 
 /* A run from a file of slosh-dist bench --json. */
 
@@ -109,8 +92,6 @@ typedef struct ScalingPicture {
 } ScalingPicture;
 
 /* Commands of slosh-dist. Each returns its exit code, equal on all ranks. */
-
-int dist_run(const Args *args);
 
 /* Measures the parts of a step per rank; --json writes a file for dist_model. */
 int dist_bench(const Args *args, const DistOptions *options);

@@ -163,20 +163,6 @@ static int kind_count(const ScalingPicture *picture, ScalingKind kind)
     return count;
 }
 
-/* Writes one data block per series: ranks, speed-up, efficiency in percent. */
-static void series_data(const ScalingPicture *picture, FILE *gnuplot)
-{
-    for (int s = 0; s < picture->count; s++) {
-        const ScalingSeries *series = &picture->series[s];
-        fprintf(gnuplot, "$series%d << EOD\n", s);
-        for (int k = 0; k < series->count; k++)
-            fprintf(gnuplot, "%d %.6g %.6g\n", picture->runs[series->run[k]].cost.ranks,
-                    scaling_speedup(picture->runs, series, k),
-                    100 * scaling_efficiency(picture->runs, series, k));
-        fputs("EOD\n", gnuplot);
-    }
-}
-
 /* True if the series has bars: strong series, or weak series if there is no strong series, as both share
    runs. */
 static bool has_bars(const ScalingPicture *picture, const ScalingSeries *series)
@@ -184,22 +170,25 @@ static bool has_bars(const ScalingPicture *picture, const ScalingSeries *series)
     return series->kind == SCALING_STRONG || kind_count(picture, SCALING_STRONG) == 0;
 }
 
-/* Writes compute, exchange, balance and wait in ms, mean over ranks; a gap after each series. */
-static void bar_data(const ScalingPicture *picture, FILE *gnuplot)
+/* Draws compute, exchange, balance and wait in ms, mean over ranks; a gap after each series. */
+static void draw_bars(const ScalingPicture *picture, Plot *plot)
 {
-    fputs("$bars << EOD\n", gnuplot);
+    static const char *const titles[] = {"compute", "exchange", "balance", "wait", NULL};
+    static const int colours[] = {1, 2, 3, 10};
+    plot_bars(plot, titles, colours);
     for (int s = 0; s < picture->count; s++) {
         const ScalingSeries *series = &picture->series[s];
         if (!has_bars(picture, series))
             continue;
         for (int k = 0; k < series->count; k++) {
             const CostSample *of = &picture->runs[series->run[k]].cost;
-            fprintf(gnuplot, "\"%d\\n%.3g k\" %.6g %.6g %.6g %.6g\n", of->ranks, 1e-3 * of->particles,
-                    1e3 * of->compute, 1e3 * of->exchange, 1e3 * of->balance, 1e3 * of->wait);
+            plot_bar(plot,
+                     (double[]){1e3 * of->compute, 1e3 * of->exchange, 1e3 * of->balance, 1e3 * of->wait},
+                     "%d\\n%.3g k", of->ranks, 1e-3 * of->particles);
         }
-        fputs("\"\" 0 0 0 0\n", gnuplot);
+        plot_bar(plot, (double[4]){0}, " ");
     }
-    fputs("EOD\n", gnuplot);
+    plot_draw(plot, NULL);
 }
 
 static int bar_count(const ScalingPicture *picture)
@@ -211,80 +200,75 @@ static int bar_count(const ScalingPicture *picture)
     return bars;
 }
 
-/* Curves over ranks; column 2: speed-up, 3: efficiency. */
-static void curves(const ScalingPicture *picture, ScalingKind kind, FILE *gnuplot)
+/* Draws speed-up, or efficiency in percent, over ranks. */
+static void draw_curves(const ScalingPicture *picture, ScalingKind kind, Plot *plot)
 {
-    const char *separator = kind == SCALING_STRONG ? ", " : "";
-    fputs(kind == SCALING_STRONG ? "plot x with lines dt 2 lc '#8795a3' title 'nothing lost'" : "plot ",
-          gnuplot);
+    const bool strong = kind == SCALING_STRONG;
+    if (strong)
+        plot_function(plot, "nothing lost", "x with lines dt 2 lc '#8795a3'");
     for (int s = 0; s < picture->count; s++) {
         const ScalingSeries *series = &picture->series[s];
         const CostSample *first = &picture->runs[series->run[0]].cost;
+        char title[64];
         if (series->kind != kind)
             continue;
-        fprintf(gnuplot, "%s$series%d using %s with linespoints lw 2 pt 7 lt %d title '%.3g k%s'", separator,
-                s, kind == SCALING_STRONG ? "1:2" : "1:3", s + 1,
-                1e-3 * first->particles / (kind == SCALING_STRONG ? 1 : first->ranks),
-                kind == SCALING_STRONG ? "" : " a rank");
-        separator = ", ";
+        snprintf(title, sizeof title, "%.3g k%s", 1e-3 * first->particles / (strong ? 1 : first->ranks),
+                 strong ? "" : " a rank");
+        plot_series(plot, title, "with linespoints lw 2 pt 7 lt %d", s + 1);
+        for (int k = 0; k < series->count; k++)
+            plot_point(plot, picture->runs[series->run[k]].cost.ranks,
+                       strong ? scaling_speedup(picture->runs, series, k)
+                              : 100 * scaling_efficiency(picture->runs, series, k));
     }
-    fputc('\n', gnuplot);
+    plot_draw(plot, NULL);
 }
 
-static void place(FILE *gnuplot, int left, int width, int whole)
+/* Places the next panel of the width, and writes its title and axes. */
+static void place(Plot *plot, int *left, int width, const char *title, const char *x, const char *y)
 {
-    fprintf(gnuplot, "set origin %.4f,0\nset size %.4f,0.93\n", (double)left / whole, (double)width / whole);
+    fprintf(plot_commands(plot), "set origin %.4f,0\nset size %.4f,0.93\n", (double)*left / plot->width,
+            (double)width / plot->width);
+    plot_set(plot, "title", title, "");
+    plot_set(plot, "xlabel", x, "");
+    plot_set(plot, "ylabel", y, "");
+    *left += width;
 }
 
-static void panels(const ScalingPicture *picture, int bars_width, int whole, FILE *gnuplot)
+static void draw_panels(const ScalingPicture *picture, int bars_width, Plot *plot)
 {
     int left = 0;
-    fputs("set key inside left top noenhanced\nset logscale xy 2\nset xlabel 'ranks'\nset bmargin 5\n",
-          gnuplot);
+    fputs("set bmargin 5\nset key inside left top noenhanced\n", plot_commands(plot));
     if (kind_count(picture, SCALING_STRONG) > 0) {
-        place(gnuplot, left, PANEL, whole);
-        fputs("set title 'strong scaling: the same particles'\nset ylabel 'speed-up'\n", gnuplot);
-        curves(picture, SCALING_STRONG, gnuplot);
-        left += PANEL;
+        place(plot, &left, PANEL, "strong scaling: the same particles", "ranks", "speed-up");
+        fputs("set logscale xy 2\n", plot->gnuplot);
+        draw_curves(picture, SCALING_STRONG, plot);
     }
     if (kind_count(picture, SCALING_WEAK) > 0) {
-        place(gnuplot, left, PANEL, whole);
-        fputs("unset logscale y\nset key inside left bottom noenhanced\nset yrange [0:*]\n"
-              "set title 'weak scaling: as many particles a rank'\nset ylabel 'efficiency, %'\n",
-              gnuplot);
-        curves(picture, SCALING_WEAK, gnuplot);
-        left += PANEL;
+        place(plot, &left, PANEL, "weak scaling: as many particles a rank", "ranks", "efficiency, %");
+        fputs("set logscale x 2\nset key inside left bottom noenhanced\nset yrange [0:*]\n", plot->gnuplot);
+        draw_curves(picture, SCALING_WEAK, plot);
     }
-    place(gnuplot, left, bars_width, whole);
-    fputs("unset logscale\nset key inside left top noenhanced\nset xlabel 'ranks, particles' offset 0,-1\n"
-          "set ylabel 'time of a step, ms'\nset title 'what a step is made of, mean of the ranks'\n"
-          "set yrange [0:*]\nset style data histograms\nset style histogram rowstacked\n"
-          "set style fill solid noborder\nset boxwidth 0.7\n"
-          "plot $bars using 2:xtic(1) lt 1 title 'compute', '' using 3 lt 2 title 'exchange', "
-          "'' using 4 lt 3 title 'balance', '' using 5 lt 10 title 'wait'\n",
-          gnuplot);
+    place(plot, &left, bars_width, "what a step is made of, mean of the ranks", "ranks, particles",
+          "time of a step, ms");
+    fputs("set key inside left top noenhanced\nset xlabel offset 0,-1\n", plot->gnuplot);
+    draw_bars(picture, plot);
 }
 
 /* Draws FILE.svg or FILE.png. */
 static bool scaling_draw(const ScalingPicture *picture, const char *path, Error *error)
 {
-    Gnuplot chart = {.gnuplot = NULL};
+    Plot plot = {.gnuplot = NULL};
     char title[512];
     const int bars = MARGINS + BAR * bar_count(picture), bars_width = bars > PANEL ? bars : PANEL;
     int width = bars_width;
     for (ScalingKind kind = SCALING_STRONG; kind < SCALING_KINDS; kind++)
         width += kind_count(picture, kind) > 0 ? PANEL : 0;
-    if (!gnuplot_begin(&chart, path, width, HEIGHT, error))
+    if (!plot_begin(&plot, path, width, HEIGHT, error))
         return false;
-    series_data(picture, chart.gnuplot);
-    bar_data(picture, chart.gnuplot);
     snprintf(title, sizeof title, "%s, %s", picture->sample[0].scene, picture->sample[0].processor);
-    fputs("set multiplot title ", chart.gnuplot);
-    gnuplot_quote(chart.gnuplot, title);
-    fputs(" noenhanced\n", chart.gnuplot);
-    panels(picture, bars_width, width, chart.gnuplot);
-    fputs("unset multiplot\n", chart.gnuplot);
-    return gnuplot_end(&chart, error);
+    plot_set(&plot, "multiplot title", title, " noenhanced");
+    draw_panels(picture, bars_width, &plot);
+    return plot_end(&plot, error);
 }
 
 /* Strong and weak scaling from runs of slosh-dist bench: a table, JSON and a chart. */
@@ -304,7 +288,7 @@ static bool take_option(Scaling *scaling, const char *word, const char *value, E
     if (!value)
         return error_set(error, "slosh-dist scaling: %s needs a file", word);
     *file = value;
-    return file == &scaling->json || gnuplot_check_name(value, error);
+    return file == &scaling->json || plot_check_name(value, error);
 }
 
 static bool read_all(Scaling *scaling, int count, char *const words[], Error *error)
@@ -419,18 +403,18 @@ static int scale(Scaling *scaling, int count, char *const words[], Error *error)
 
 int dist_scaling(int count, char *const words[])
 {
-    static Scaling scaling;
+    ScalingSample *sample = calloc((size_t)count + 1, sizeof *sample);
+    ScalingRun *runs = calloc((size_t)count + 1, sizeof *runs);
+    Scaling scaling = {.sample = sample, .runs = runs};
     Error error = {{0}};
     int code = EXIT_FAILED;
-    scaling.sample = calloc((size_t)count + 1, sizeof *scaling.sample);
-    scaling.runs = calloc((size_t)count + 1, sizeof *scaling.runs);
-    if (!scaling.sample || !scaling.runs)
+    if (!sample || !runs)
         error_set(&error, "slosh-dist scaling: no memory for %d runs", count);
     else
         code = scale(&scaling, count, words, &error);
     if (code != 0)
         fprintf(stderr, "%s\n", error.message);
-    free(scaling.sample);
-    free(scaling.runs);
+    free(sample);
+    free(runs);
     return code;
 }

@@ -1,5 +1,4 @@
-#include "app/run/history.h"
-
+#include "app/run/simulator_private.h"
 #include "sim/step/method.h"
 #include "slosh/state.h"
 #include "slosh/world.h"
@@ -17,18 +16,18 @@ typedef struct SettingsPiece {
 } SettingsPiece;
 
 /* Settings of the states from one change to the next: the pieces that differ from the past's base scene. */
-typedef struct KeptSettings {
+typedef struct HistorySettings {
     size_t users, count;
     SettingsPiece piece[];
-} KeptSettings;
+} HistorySettings;
 
-typedef struct KeptState {
+typedef struct HistoryState {
     uint64_t place;
     size_t next, bytes;
     double work_ms; /* frame time since the previous state */
-    KeptSettings *settings;
+    HistorySettings *settings;
     WorldState state;
-} KeptState;
+} HistoryState;
 
 struct History {
     size_t bytes_most, bytes; /* of states, base, settings and places */
@@ -40,22 +39,22 @@ struct History {
     uint64_t before; /* count of forgotten places */
     size_t place_count, place_room;
     HistoryPlace *places;
-    Scene *base;        /* NULL: no base and no states */
-    size_t count, room; /* of the states; the oldest is first */
-    KeptState **kept;
+    Scene *base;            /* NULL: no base and no states */
+    size_t count, capacity; /* of the states; the oldest is first */
+    HistoryState **states;
 };
 
 /* Makes room for one more element of `size` bytes. Returns false if memory is short. */
-static bool grow(void **array, size_t count, size_t *room, size_t size)
+static bool grow(void **array, size_t count, size_t *capacity, size_t size)
 {
-    if (count < *room)
+    if (count < *capacity)
         return true;
-    const size_t more = *room ? 2 * *room : 256;
+    const size_t more = *capacity ? 2 * *capacity : 256;
     void *grown = realloc(*array, more * size);
     if (!grown)
         return false;
     *array = grown;
-    *room = more;
+    *capacity = more;
     return true;
 }
 
@@ -71,12 +70,12 @@ History *history_create(size_t bytes_most)
     return NULL;
 }
 
-static size_t settings_bytes(const KeptSettings *settings)
+static size_t settings_bytes(const HistorySettings *settings)
 {
     return sizeof *settings + settings->count * sizeof *settings->piece;
 }
 
-static void settings_release(History *history, KeptSettings *settings)
+static void settings_release(History *history, HistorySettings *settings)
 {
     if (!settings || --settings->users > 0)
         return;
@@ -91,20 +90,20 @@ static void forget_base(History *history)
     history->base = NULL;
 }
 
-static void kept_free(History *history, KeptState *kept)
+static void kept_free(History *history, HistoryState *states)
 {
-    if (!kept)
+    if (!states)
         return;
-    history->bytes -= kept->bytes;
-    settings_release(history, kept->settings);
-    world_state_free(&kept->state);
-    free(kept);
+    history->bytes -= states->bytes;
+    settings_release(history, states->settings);
+    world_state_free(&states->state);
+    free(states);
 }
 
 static void forget_states(History *history, size_t from)
 {
     while (history->count > from)
-        kept_free(history, history->kept[--history->count]);
+        kept_free(history, history->states[--history->count]);
 }
 
 void history_destroy(History *history)
@@ -113,7 +112,7 @@ void history_destroy(History *history)
         return;
     forget_states(history, 0);
     forget_base(history);
-    free(history->kept);
+    free(history->states);
     free(history->places);
     free(history);
 }
@@ -125,7 +124,7 @@ uint64_t history_last(const History *history)
 
 uint64_t history_first(const History *history)
 {
-    return history->count > 0 ? history->kept[0]->place : history_last(history);
+    return history->count > 0 ? history->states[0]->place : history_last(history);
 }
 
 HistoryPlace history_place(const History *history, uint64_t place)
@@ -172,7 +171,7 @@ void history_begin(History *history, const WorldInfo *info)
 static size_t bytes_of(size_t particles, const WorldDef *def)
 {
     const ColumnRows rows = columns_saved(def);
-    size_t bytes = sizeof(KeptState);
+    size_t bytes = sizeof(HistoryState);
     for (int r = 0; r < rows.count; r++)
         bytes += (size_t)rows.row[r]->components * column_size(rows.row[r]) * (particles + COLUMN_PAST);
     return bytes;
@@ -185,11 +184,11 @@ static double reach(const History *history)
 }
 
 /* Removes the state from the list and returns it. */
-static KeptState *take_out(History *history, size_t at)
+static HistoryState *take_out(History *history, size_t at)
 {
-    KeptState *out = history->kept[at];
+    HistoryState *out = history->states[at];
     history->count--;
-    memmove(history->kept + at, history->kept + at + 1, (history->count - at) * sizeof(KeptState *));
+    memmove(history->states + at, history->states + at + 1, (history->count - at) * sizeof(HistoryState *));
     return out;
 }
 
@@ -199,7 +198,7 @@ static size_t find_needless(const History *history)
     double least = reach(history) < HISTORY_WANTED_S ? HISTORY_GAP_SHORT_MS : HISTORY_GAP_MOST_MS;
     size_t needless = 0;
     for (size_t i = 1; i + 1 < history->count; i++) {
-        const double gap = history->kept[i]->work_ms + history->kept[i + 1]->work_ms;
+        const double gap = history->states[i]->work_ms + history->states[i + 1]->work_ms;
         if (gap < least) {
             least = gap;
             needless = i;
@@ -209,22 +208,22 @@ static size_t find_needless(const History *history)
 }
 
 /* Removes a dispensable state and returns it; NULL: no states. */
-static KeptState *thin_out(History *history)
+static HistoryState *thin_out(History *history)
 {
     const size_t needless = find_needless(history);
     if (history->count == 0)
         return NULL;
     if (needless > 0)
-        history->kept[needless + 1]->work_ms += history->kept[needless]->work_ms;
-    KeptState *out = take_out(history, needless);
+        history->states[needless + 1]->work_ms += history->states[needless]->work_ms;
+    HistoryState *out = take_out(history, needless);
     history->dropped |= needless == 0 && reach(history) < HISTORY_WANTED_S;
     return out;
 }
 
 /* Removes states until `more` bytes fit. Returns one removed state for reuse, or NULL. */
-static KeptState *make_room(History *history, size_t more)
+static HistoryState *make_room(History *history, size_t more)
 {
-    KeptState *again = NULL;
+    HistoryState *again = NULL;
     while (history->bytes + more > history->bytes_most && history->count > 0) {
         kept_free(history, again);
         again = thin_out(history);
@@ -270,10 +269,10 @@ static size_t differing(const Scene *base, const Scene *scene, SettingsPiece *to
     return count;
 }
 
-static KeptSettings *settings_new(const History *history, const Scene *scene)
+static HistorySettings *settings_new(const History *history, const Scene *scene)
 {
     const size_t count = differing(history->base, scene, NULL);
-    KeptSettings *settings = calloc(1, sizeof *settings + count * sizeof(SettingsPiece));
+    HistorySettings *settings = calloc(1, sizeof *settings + count * sizeof(SettingsPiece));
     if (!settings)
         return NULL;
     settings->users = 1;
@@ -282,12 +281,12 @@ static KeptSettings *settings_new(const History *history, const Scene *scene)
     return settings;
 }
 
-static bool settings_equal(const KeptSettings *a, const KeptSettings *b)
+static bool settings_equal(const HistorySettings *a, const HistorySettings *b)
 {
     return a->count == b->count && same_bytes(a->piece, b->piece, a->count * sizeof(SettingsPiece));
 }
 
-static void settings_apply(const History *history, const KeptSettings *settings, Scene *scene)
+static void settings_apply(const History *history, const HistorySettings *settings, Scene *scene)
 {
     memcpy(scene, history->base, sizeof *scene);
     for (size_t i = 0; i < settings->count; i++) {
@@ -309,10 +308,10 @@ static bool follow_base(History *history, const Scene *scene)
     return true;
 }
 
-static KeptSettings *settings_of(History *history, const Scene *scene)
+static HistorySettings *settings_of(History *history, const Scene *scene)
 {
-    KeptSettings *last = history->count > 0 ? history->kept[history->count - 1]->settings : NULL;
-    KeptSettings *settings = follow_base(history, scene) ? settings_new(history, scene) : NULL;
+    HistorySettings *last = history->count > 0 ? history->states[history->count - 1]->settings : NULL;
+    HistorySettings *settings = follow_base(history, scene) ? settings_new(history, scene) : NULL;
     if (settings && last && settings_equal(settings, last)) {
         free(settings);
         last->users++;
@@ -340,29 +339,30 @@ static void count_copy(History *history, double ms, size_t bytes)
 }
 
 /* Fills `kept` with the present state. */
-static bool fill(History *history, KeptState *kept, World *world, const Scene *scene, size_t next)
+static bool fill(History *history, HistoryState *states, World *world, const Scene *scene, size_t next)
 {
     Error none;
     const double began = wall_ms();
-    settings_release(history, kept->settings);
-    kept->settings = NULL;
-    if (!grow((void **)&history->kept, history->count, &history->room, sizeof(KeptState *)) ||
-        !world_save(world, &kept->state, &none) || !(kept->settings = settings_of(history, scene)))
+    settings_release(history, states->settings);
+    states->settings = NULL;
+    if (!grow((void **)&history->states, history->count, &history->capacity, sizeof(HistoryState *)) ||
+        !world_save(world, &states->state, &none) || !(states->settings = settings_of(history, scene)))
         return false;
-    kept->place = history_last(history);
-    kept->next = next;
-    kept->bytes = bytes_of(kept->state.capacity, &scene->world) + kept->state.births.room * sizeof(Birth);
-    kept->work_ms = history->work_ms;
-    history->bytes += kept->bytes;
-    count_copy(history, wall_ms() - began, kept->bytes);
+    states->place = history_last(history);
+    states->next = next;
+    states->bytes =
+        bytes_of(states->state.capacity, &scene->world) + states->state.births.capacity * sizeof(Birth);
+    states->work_ms = history->work_ms;
+    history->bytes += states->bytes;
+    count_copy(history, wall_ms() - began, states->bytes);
     return true;
 }
 
 static bool is_due(const History *history, bool now)
 {
-    if (history->count > 0 && history->kept[history->count - 1]->place == history_last(history))
+    if (history->count > 0 && history->states[history->count - 1]->place == history_last(history))
         return false;
-    return now || history->count == 0 || is_time(history, history->kept[history->count - 1]->bytes);
+    return now || history->count == 0 || is_time(history, history->states[history->count - 1]->bytes);
 }
 
 void history_keep(History *history, World *world, const Scene *scene, size_t next, bool now)
@@ -374,20 +374,20 @@ void history_keep(History *history, World *world, const Scene *scene, size_t nex
     history->state_bytes = bytes_of(info.count, &scene->world) + world_births_bytes(world);
     if (history->count == 0)
         forget_base(history);
-    const size_t own = history->state_bytes + sizeof(KeptSettings), whole = sizeof(Scene);
+    const size_t own = history->state_bytes + sizeof(HistorySettings), whole = sizeof(Scene);
     const size_t needed = own + whole + history->place_count * sizeof *history->places;
     if (needed > history->bytes_most) { /* too large for even one state */
         history->dropped = true;
         return;
     }
-    KeptState *kept = make_room(history, own + (history->base ? 0 : whole));
-    if (!kept)
-        kept = calloc(1, sizeof *kept);
-    if (!kept || !fill(history, kept, world, scene, next)) {
-        kept_free(history, kept);
+    HistoryState *states = make_room(history, own + (history->base ? 0 : whole));
+    if (!states)
+        states = calloc(1, sizeof *states);
+    if (!states || !fill(history, states, world, scene, next)) {
+        kept_free(history, states);
         return;
     }
-    history->kept[history->count++] = kept;
+    history->states[history->count++] = states;
     history->work_ms = 0;
     kept_free(history, make_room(history, 0)); /* in case the new state is larger than the previous one */
 }
@@ -408,17 +408,17 @@ uint64_t history_find(const History *history, double time)
 }
 
 /* The last state at or before the place. */
-static const KeptState *kept_before(const History *history, uint64_t place)
+static const HistoryState *kept_before(const History *history, uint64_t place)
 {
     size_t low = 0, high = history->count;
     while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;
-        if (history->kept[middle]->place <= place)
+        if (history->states[middle]->place <= place)
             low = middle;
         else
             high = middle;
     }
-    return history->kept[low];
+    return history->states[low];
 }
 
 uint64_t history_state_before(const History *history, uint64_t place)
@@ -432,19 +432,19 @@ bool history_load(const History *history, uint64_t place, World **world, Scene *
     Scene then;
     if (history->count == 0)
         return error_set(error, "no state of the past is kept");
-    const KeptState *kept = kept_before(history, place);
-    settings_apply(history, kept->settings, &then);
-    if (!world_load_shapes(world, &then.world, &kept->state, error))
+    const HistoryState *states = kept_before(history, place);
+    settings_apply(history, states->settings, &then);
+    if (!world_load_shapes(world, &then.world, &states->state, error))
         return false;
     memcpy(scene, &then, sizeof then); /* with padding, for comparisons */
-    *next = kept->next;
+    *next = states->next;
     return true;
 }
 
 void history_cut(History *history, uint64_t place)
 {
     size_t states = history->count;
-    while (states > 0 && history->kept[states - 1]->place > place)
+    while (states > 0 && history->states[states - 1]->place > place)
         states--;
     forget_states(history, states);
     const size_t left = (size_t)(place - history->before) + 1;

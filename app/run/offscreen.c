@@ -1,13 +1,15 @@
 #include "app/run/offscreen.h"
 
 #include "app/base/program.h"
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
+#include <glob.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 struct Headless {
     EGLDisplay display;
@@ -15,27 +17,67 @@ struct Headless {
     char renderer[256];
 };
 
+enum { MISSING_SIZE = 160 };
+
+/* The reason why OpenGL has no GPU on this machine, as far as files tell. */
+static const char *what_is_missing(char text[MISSING_SIZE])
+{
+    glob_t nodes = {0};
+    const bool node = glob("/dev/dri/renderD*", 0, NULL, &nodes) == 0;
+    if (node && access(nodes.gl_pathv[0], R_OK | W_OK) != 0)
+        snprintf(text, MISSING_SIZE, "no right to use %.40s (its group is `render` on most systems)",
+                 nodes.gl_pathv[0]);
+    else if (access("/dev/nvidiactl", F_OK) == 0)
+        snprintf(text, MISSING_SIZE,
+                 "an NVIDIA GPU is here, but not its OpenGL driver (libnvidia-egl; in a "
+                 "container: the capability `graphics`)");
+    else if (node)
+        snprintf(text, MISSING_SIZE, "no OpenGL driver for %.40s", nodes.gl_pathv[0]);
+    else
+        snprintf(text, MISSING_SIZE, "this machine shows no GPU");
+    globfree(&nodes);
+    return text;
+}
+
+void renderer_tell(const char *name)
+{
+    char missing[MISSING_SIZE];
+    if (gl_renderer_is_software())
+        fprintf(stderr, "renderer: %s; software: %s\n", name, what_is_missing(missing));
+    else
+        fprintf(stderr, "renderer: %s\n", name);
+}
+
+/* Without the extension, a driver lists its own GPUs alone. */
 static bool is_software(EGLDeviceEXT device)
 {
+    if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_base") &&
+        !epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_query"))
+        return false;
     const char *extensions = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
     return extensions && strstr(extensions, "EGL_MESA_device_software");
 }
 
-/* Lists hardware devices before software devices, each in the order of the driver. */
-static int list_devices(EGLDeviceEXT sorted[HEADLESS_GPUS_MAX])
+/* Lists hardware devices before software devices, each in the order of the driver; `gpus` gets the number of
+   hardware devices. */
+static int list_devices(EGLDeviceEXT sorted[HEADLESS_GPUS_MAX], int *gpus)
 {
     EGLDeviceEXT devices[HEADLESS_GPUS_MAX];
     EGLint count = 0;
     int filled = 0;
+    *gpus = 0;
     if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_base") &&
         !epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration"))
         return 0;
     if (!eglQueryDevicesEXT(HEADLESS_GPUS_MAX, devices, &count))
         return 0;
-    for (int software = 0; software < 2; software++)
+    for (int software = 0; software < 2; software++) {
         for (int i = 0; i < count; i++)
             if (is_software(devices[i]) == (software == 1))
                 sorted[filled++] = devices[i];
+        if (!software)
+            *gpus = filled;
+    }
     return filled;
 }
 
@@ -101,10 +143,14 @@ Headless *headless_create(int gpu, Error *error)
         return NULL;
     }
     EGLDeviceEXT devices[HEADLESS_GPUS_MAX];
-    int count = list_devices(devices);
-    if (gpu >= count || gpu < HEADLESS_GPU_AUTO) {
-        error_set(error, "there is no GPU %d; this machine has %d EGL device%s, counted from 0", gpu, count,
-                  plural((size_t)count));
+    int gpus, count = list_devices(devices, &gpus);
+    if (gpu >= gpus || gpu < HEADLESS_GPU_AUTO) {
+        char missing[MISSING_SIZE];
+        if (gpus > 0)
+            error_set(error, "there is no GPU %d; EGL has %d here, counted from 0", gpu, gpus);
+        else
+            error_set(error, "there is no GPU %d: %s; without --gpu a software driver will do", gpu,
+                      what_is_missing(missing));
         return NULL;
     }
     Headless *headless = NULL;

@@ -3,9 +3,9 @@
 #ifndef APP_RUN_OFFSCREEN_H
 #define APP_RUN_OFFSCREEN_H
 
-#include "render/particles/upload.h"
+#include "render/particles/particles.h"
 #include "render/renderer.h"
-#include "sim/gpu/timer.h"
+#include "sim/gpu/gl.h"
 #include "slosh/error.h"
 #include "slosh/world.h"
 
@@ -15,14 +15,18 @@ enum { HEADLESS_GPU_AUTO = -1, HEADLESS_GPUS_MAX = 16 };
 
 typedef struct Headless Headless;
 
-/* Creates a context and makes it current on the calling thread. `gpu` counts the EGL devices, hardware before
-   software; -1 takes the first working device, and Mesa's surfaceless platform if all fail. Returns NULL on
-   failure: `error` lists the attempts. */
+/* Creates a context and makes it current on the calling thread. `gpu` counts the EGL devices of hardware; -1
+   takes the first working device, a software driver where no GPU is, and Mesa's surfaceless platform if all
+   fail. Returns NULL on failure: `error` lists the attempts. */
 Headless *headless_create(int gpu, Error *error);
 void headless_destroy(Headless *headless); /* NULL is allowed */
 
 /* The driver's name of the renderer, for people; owned by `headless`. */
 const char *headless_renderer(const Headless *headless);
+
+/* Tells the name of the current context's renderer on standard error, in a line; of a software driver also
+   the reason why no GPU is used. */
+void renderer_tell(const char *name);
 
 /* Renderer and upload ring. */
 typedef struct Offscreen {

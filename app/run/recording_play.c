@@ -57,7 +57,7 @@ int recording_play_open(const RecordingPlay *play, const SceneSettings *more, in
     Error why = {""};
     *session = (Session){.began_ms = wall_ms()};
     const bool loaded =
-        recording_play_scene(play->recording, more, SCENE_FOR_ONE, &session->scene, NULL, &why);
+        recording_play_scene(play->recording, more, SCENE_FOR_ONE, &session->run.scene, NULL, &why);
     const int code =
         loaded ? session_start(session, gpu, draws || moves_to_gpu(play->recording), &why) : EXIT_USAGE;
     if (code != 0)
@@ -69,27 +69,23 @@ bool recording_play_apply(RecordingPlay *play, Session *session, Error *error)
 {
     const Recording *recording = play->recording;
     Error why = {""};
-    for (; play->next < recording->count; play->next++) {
-        const SimCommand *command = &recording->commands[play->next];
-        if (command->step != session->info.step)
-            break;
-        if (!sim_command_apply(command, &session->world, &session->scene, &why))
-            return error_set(error, "%.300s:%zu: %.600s", play->path, recording_line(recording, play->next),
-                             why.message);
-    }
-    world_info(session->world, &session->info);
+    for (const SimCommand *command;
+         (command = recording_due(recording, &play->next, session->run.info.step)) != NULL;)
+        if (!run_apply(&session->run, command, &why))
+            return error_set(error, "%.300s:%zu: %.600s", play->path,
+                             recording_line(recording, play->next - 1), why.message);
     return true;
 }
 
 bool recording_play_ended(const RecordingPlay *play, const Session *session)
 {
-    return play->next == play->recording->count && session->info.step >= play->recording->steps;
+    return play->next == play->recording->count && session->run.info.step >= play->recording->steps;
 }
 
 bool recording_play_broke(const RecordingPlay *play, const Session *session)
 {
     const Recording *recording = play->recording;
-    return !recording->cut && play->next == recording->count && session->info.step == recording->steps;
+    return !recording->cut && play->next == recording->count && session->run.info.step == recording->steps;
 }
 
 bool recording_play_same(const RecordingPlay *play, uint64_t hash)
@@ -115,7 +111,7 @@ int recording_play_report(const RecordingPlay *play, const Session *session, boo
                           bool quiet)
 {
     const Recording *recording = play->recording;
-    const uint64_t step = session->info.step;
+    const uint64_t step = session->run.info.step;
     if (!ended) {
         fprintf(stderr, "stopped at step %" PRIu64 " of %" PRIu64 "; nothing was compared\n", step,
                 recording->steps);
@@ -134,7 +130,7 @@ int recording_play_report(const RecordingPlay *play, const Session *session, boo
                 "different after %" PRIu64 " steps: hash %016" PRIx64 ", and %016" PRIx64 " was recorded%s\n",
                 step, hash, recording->hash,
                 strcmp(recording->program, SLOSH_VERSION) == 0 ? "" : " by another version");
-        advise(&session->scene.world);
+        advise(&session->run.scene.world);
         return EXIT_FAILED;
     }
     if (!quiet)

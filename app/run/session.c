@@ -4,8 +4,8 @@
 #include "app/base/program.h"
 #include "app/files/forces_log.h"
 #include "app/files/snapshot.h"
-#include "app/run/measure/probe.h"
-#include "app/scene/scene_files.h"
+#include "app/run/measure/measure.h"
+#include "app/scene/scene.h"
 #include "sim/flow/flow.h"
 #include "sim/step/method.h"
 
@@ -80,28 +80,33 @@ static int start_again(Session *session, const Args *args, Error *error)
     SnapshotFirst first = {.position = NULL};
     if (!snapshot_first(args->output, &first, error))
         return EXIT_USAGE;
-    session->scene.world.initial = &first.initial;
+    session->run.scene.world.initial = &first.initial;
     const int code = session_start(session, args->gpu, false, error);
-    session->scene.world.initial = NULL;
+    session->run.scene.world.initial = NULL;
     snapshot_first_free(&first);
     return code;
 }
 
-int session_open(Session *session, const Args *args, Error *error)
+static bool take_hand(Session *session, const Args *args, Error *error)
+{
+    if (args->device)
+        session->hand = device_replay_open(args->device, args->mapping, &session->run.scene, error);
+    session->run.watch.closed = !session->hand;
+    return !args->device || session->hand;
+}
+
+int session_open(Session *session, const Args *args, bool resume, Error *error)
 {
     Notes notes;
     SceneSettings settings = args->settings;
     *session = (Session){.began_ms = wall_ms()};
-    settings.goes_on = args->resume && access(args->output, F_OK) == 0;
-    session->watch.resumed = settings.goes_on;
-    if (!scene_load(args->scenes[0], &settings, &session->scene, &notes, error))
+    settings.goes_on = resume && access(args->output, F_OK) == 0;
+    if (!scene_load(args->scenes[0], &settings, &session->run.scene, &notes, error))
         return EXIT_USAGE;
     notes_print(&notes, stderr);
-    if (args->device &&
-        !(session->hand = device_replay_open(args->device, args->mapping, &session->scene, error)))
+    if (!take_hand(session, args, error))
         return EXIT_USAGE;
-    session->watch.closed = !session->hand;
-    return settings.goes_on && scene_has_tables(&session->scene)
+    return settings.goes_on && scene_has_tables(&session->run.scene)
                ? start_again(session, args, error)
                : session_start(session, args->gpu, false, error);
 }
@@ -109,47 +114,44 @@ int session_open(Session *session, const Args *args, Error *error)
 int session_open_scene(Session *session, const Args *args, const Scene *scene, const char *name,
                        Headless *context, Error *error)
 {
-    *session = (Session){.began_ms = wall_ms(), .scene = *scene, .context = context, .borrows = context};
+    *session =
+        (Session){.began_ms = wall_ms(), .run = {.scene = *scene}, .context = context, .borrows = context};
     snprintf(session->prefix, sizeof session->prefix, "%s%s", name, *name ? ": " : "");
-    if (args->device &&
-        !(session->hand = device_replay_open(args->device, args->mapping, &session->scene, error)))
-        return EXIT_USAGE;
-    session->watch.closed = !session->hand;
-    return session_start(session, args->gpu, true, error);
+    return take_hand(session, args, error) ? session_start(session, args->gpu, true, error) : EXIT_USAGE;
 }
 
 int session_start(Session *session, int gpu, bool draws, Error *error)
 {
-    const bool on_gpu = world_on_gpu(&session->scene.world);
-    if (!world_can(&session->scene.world, error))
+    const bool on_gpu = world_on_gpu(&session->run.scene.world);
+    if (!world_can(&session->run.scene.world, error))
         return EXIT_USAGE;
     if ((on_gpu || draws) && !session->context) {
         session->context = headless_create(gpu, error);
         if (!session->context)
             return EXIT_FAILED;
-        fprintf(stderr, "renderer: %s\n", headless_renderer(session->context));
+        renderer_tell(headless_renderer(session->context));
     }
-    session->world = world_create(&session->scene.world, error);
-    if (!session->world)
-        return on_gpu ? EXIT_FAILED : EXIT_USAGE;
-    world_info(session->world, &session->info);
-    return 0;
+    if (run_begin(&session->run, &session->run.scene.world, error))
+        return 0;
+    return on_gpu ? EXIT_FAILED : EXIT_USAGE;
 }
 
 void session_close(Session *session)
 {
-    world_destroy(session->world);
+    run_close_probes(&session->run);
+    world_destroy(session->run.world);
     if (!session->borrows)
         headless_destroy(session->context);
     device_replay_close(session->hand);
     session->hand = NULL;
-    session->world = NULL;
+    session->run.world = NULL;
     session->context = NULL;
 }
 
 bool session_reached(const Session *session, double time)
 {
-    return session->info.time >= time - ROUNDING * session->scene.world.dt && world_is_valid(session->world);
+    return session->run.info.time >= time - ROUNDING * session->run.scene.world.dt &&
+           world_is_valid(session->run.world);
 }
 
 /* True if products of a scene with dt = 0.0166667 for 1/60 fall out of step within the span. With too long
@@ -170,8 +172,9 @@ static double rounded_up(double value)
 
 void session_warn_uneven(const Session *session, const char *what, double interval, double span)
 {
-    const double dt = session->scene.world.dt, frames = fmax(1, round(interval / dt));
-    if (session->scene.world.step_mode == STEP_FIXED && falls_out(interval, dt, frames, span))
+    const double dt = session->run.scene.world.dt, frames = fmax(1, round(interval / dt));
+    if (run_is_first(&session->run) && session->run.scene.world.step_mode == STEP_FIXED &&
+        falls_out(interval, dt, frames, span))
         fprintf(stderr,
                 "%s%s are at uneven times: a frame of %.4g s does not divide the %.4g s between them; "
                 "--set solver.step.dt=%.6g, --set solver.step.mode=cfl%s makes them even\n",
@@ -179,106 +182,24 @@ void session_warn_uneven(const Session *session, const char *what, double interv
                 strcmp(what, "pictures") == 0 ? " or --interpolate" : "");
 }
 
-static void tell(const Session *session, const char *words)
+/* Prints a message of the run. */
+static void tell(void *user, const char *words)
 {
-    fprintf(stderr, "%s%s\n", session->prefix, words);
+    const Session *session = user;
+    if (run_is_first(&session->run))
+        fprintf(stderr, "%s%s\n", session->prefix, words);
 }
 
-/* After a step: updates the info, and reports troubles of the step. */
-static void look(Session *session)
+bool session_interrupted(const Session *session)
 {
-    char words[256];
-    world_info(session->world, &session->info);
-    if (session_trouble_is_new(&session->reported_trouble, &session->info.trouble))
-        tell(session, session_trouble_text(&session->info.trouble, words));
-    if (session->info.full && !session->reported_full)
-        tell(session, session_full_text(&session->info, words));
-    session->reported_full |= session->info.full;
-    if (session->info.barred & ~session->reported_blocked)
-        tell(session, session_blocked_text(&session->info, &session->reported_blocked, words));
-    if (session->info.lost && !session->reported_lost)
-        tell(session, session_lost_text(&session->info, words));
-    session->reported_lost |= session->info.lost > 0;
-    if (session->info.unlisted && !session->reported_unlisted)
-        tell(session, session_unlisted_text(&session->info, words));
-    session->reported_unlisted |= session->info.unlisted > 0;
-}
-
-const char *session_lost_text(const WorldInfo *info, char words[256])
-{
-    snprintf(words, 256,
-             "t = %.4g s: %zu of %zu particles %s no place in the grid, and no neighbour sees %s; "
-             "solver.grid_layers 0 has room for a fluid at rest",
-             info->time, info->lost, info->count, info->lost == 1 ? "finds" : "find",
-             info->lost == 1 ? "it" : "them");
-    return words;
-}
-
-const char *session_full_text(const WorldInfo *info, char words[256])
-{
-    snprintf(
-        words, 256,
-        "t = %.4g s: there %s %zu particle%s, as many as particles.most allows: no more come until some drain",
-        info->time, info->count == 1 ? "is" : "are", info->count, plural(info->count));
-    return words;
-}
-
-const char *session_blocked_text(const WorldInfo *info, uint64_t *told, char words[256])
-{
-    char names[160] = "", name[GATE_NAME_SIZE];
-    for (int k = 0; k < EMITTERS_MAX; k++)
-        if (info->barred & ~*told & 1ULL << k) {
-            gate_name(k, name);
-            snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", *names ? ", " : "", name);
-        }
-    snprintf(
-        words, 256,
-        "t = %.4g s: %s: no particle of the last %d layers found room; something stands in the way, or the "
-        "place is full",
-        info->time, names, BLOCKED_LAYERS);
-    *told |= info->barred;
-    return words;
-}
-
-bool session_trouble_is_new(TroubleReports *told, const WorldTrouble *trouble)
-{
-    unsigned *halvings = &told->halvings[trouble->what];
-    const unsigned bit = 1u << trouble->tries;
-    const bool is_new = trouble->count != told->count && !(*halvings & bit);
-    if (trouble->count != told->count)
-        *halvings |= bit;
-    told->count = trouble->count;
-    return is_new;
-}
-
-const char *session_trouble_text(const WorldTrouble *trouble, char words[256])
-{
-    char what[160];
-    world_trouble_words(trouble, what);
-    snprintf(words, 256, "t = %.4g s: %s; back to %.4g s with 1/%d of the step (%d of %d)", trouble->time,
-             what, trouble->back_to, 1 << trouble->tries, trouble->tries, trouble->retries);
-    return words;
-}
-
-const char *session_unlisted_text(const WorldInfo *info, char words[256])
-{
-    snprintf(words, 256,
-             "lists of neighbours would take %.3g GB, more than the driver or its memory allows: each pass "
-             "searches anew, and steps take up to twice as long; fewer particles or a smaller "
-             "particles.support need less",
-             1e-9 * (double)info->unlisted);
-    return words;
+    Error none = {{0}};
+    return !run_agree(&session->run, !interrupted(), &none);
 }
 
 bool session_substep(Session *session, Error *error)
 {
-    device_replay_apply(session->hand, session->world);
-    char words[FLUID_WATCH_WORDS];
-    const bool stepped = world_substep(session->world, NULL, error);
-    look(session);
-    if (stepped && fluid_watch(&session->watch, &session->scene.world, session->world, words))
-        tell(session, words);
-    return stepped;
+    device_replay_apply(session->hand, session->run.world);
+    return run_substep(&session->run, NULL, tell, session, error);
 }
 
 bool session_step(Session *session, Error *error)
@@ -286,7 +207,7 @@ bool session_step(Session *session, Error *error)
     bool stepped = true;
     do
         stepped = session_substep(session, error);
-    while (stepped && session->info.within_frame);
+    while (stepped && session->run.info.within_frame);
     return stepped;
 }
 
@@ -300,7 +221,7 @@ static double wall_seconds(const Session *session)
    a quarter would be 0. */
 static void report_thinnest(const Session *session, double least)
 {
-    const WorldDef *def = &session->scene.world;
+    const WorldDef *def = &session->run.scene.world;
     const Method *method = method_find(def->method);
     if (method && method->carries_density && least < 0.3)
         fprintf(
@@ -312,8 +233,10 @@ static void report_thinnest(const Session *session, double least)
 
 void session_report(const Session *session, const Args *args, const Summary *summary)
 {
-    const WorldInfo *info = &session->info;
+    const WorldInfo *info = &session->run.info;
     const double wall = wall_seconds(session);
+    if (!run_is_first(&session->run))
+        return;
     if (summary->stopped)
         fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", info->time, args->output);
     if (!args->quiet)
@@ -321,7 +244,7 @@ void session_report(const Session *session, const Args *args, const Summary *sum
                 info->count, plural(info->count), info->time, wall, info->time / wall, args->output,
                 summary->products, (int)strlen(summary->product) - (summary->products == 1),
                 summary->product);
-    if (!args->quiet && session->scene.world.drain_count > 0 && info->drained == 0)
+    if (!args->quiet && session->run.scene.world.drain_count > 0 && info->drained == 0)
         fprintf(stderr, "the drains took nothing: no fluid came to them\n");
     session_report_steps(session, args);
     if (!args->quiet && summary->compression)
@@ -333,15 +256,15 @@ void session_report(const Session *session, const Args *args, const Summary *sum
 
 void session_report_steps(const Session *session, const Args *args)
 {
-    const WorldInfo *info = &session->info;
+    const WorldInfo *info = &session->run.info;
     char words[SOLVE_FIGURES_WORDS], bounds[STEP_LIMITS_WORDS];
     if (info->trouble.count > 0)
         fprintf(stderr, "%sthe step was halved %u time%s in all after trouble\n", session->prefix,
                 info->trouble.count, plural(info->trouble.count));
-    if (!args->quiet && session->scene.world.step_mode == STEP_CFL)
+    if (!args->quiet && session->run.scene.world.step_mode == STEP_CFL)
         fprintf(stderr, "%ssteps bounded by %s\n", session->prefix, step_limits_text(info->limited, bounds));
     if (!args->quiet && info->solved.steps > 0)
-        tell(session, solve_figures_text(&info->solved, words));
+        fprintf(stderr, "%s%s\n", session->prefix, solve_figures_text(&info->solved, words));
 }
 
 static json_t *compression_json(const CompressionFigures *pressed)
@@ -352,12 +275,12 @@ static json_t *compression_json(const CompressionFigures *pressed)
 
 json_t *session_json(const Session *session, const Args *args, const Summary *summary)
 {
-    const WorldInfo *info = &session->info;
-    const WorldDef *def = &session->scene.world;
+    const WorldInfo *info = &session->run.info;
+    const WorldDef *def = &session->run.scene.world;
     const double wall = wall_seconds(session);
     json_t *json = json_pack(
         "{s:s, s:s, s:s, s:s, s:s, s:i, s:I, s:f, s:f, s:i, s:I, s:I, s:f, s:f, s:f, s:b}", "command",
-        summary->command, "scene", session->scene.path, "output", args->output, "backend", def->backend,
+        summary->command, "scene", session->run.scene.path, "output", args->output, "backend", def->backend,
         "method", def->method, "threads", info->threads, "particles", (json_int_t)info->count, "spacing",
         info->spacing, "dt", def->dt, "substeps", def->substeps, "steps", (json_int_t)info->step,
         summary->product, (json_int_t)summary->products, "simulated_seconds", info->time, "wall_seconds",
@@ -371,7 +294,7 @@ json_t *session_json(const Session *session, const Args *args, const Summary *su
         solve_figures_json(json, &info->solved);
     }
     Outcome outcome;
-    if (fluid_watch_outcome(&session->watch, &info->trouble, &outcome))
+    if (fluid_watch_outcome(&session->run.watch, &info->trouble, &outcome))
         outcome_json(json, &outcome);
     if (json && summary->step_seconds > 0)
         json_object_set_new(json, "step_seconds", json_real(summary->step_seconds));
@@ -383,23 +306,28 @@ json_t *session_json(const Session *session, const Args *args, const Summary *su
         json_object_set_new(json, "probes", probe_table_json(summary->probes));
     if (json && summary->renderer)
         json_object_set_new(json, "renderer", json_string(summary->renderer));
+    if (json && session->run.ranks)
+        json_object_set_new(json, "ranks", json_integer(session->run.ranks->size));
     return json;
 }
 
 bool session_write_json(const Session *session, const Args *args, const Summary *summary, Error *error)
 {
-    if (!args->json)
-        return true;
-    json_t *json = session_json(session, args, summary);
-    const bool written = json_file_write(json, args->json, error);
-    json_decref(json);
-    return written;
+    bool written = true;
+    if (args->json && run_is_first(&session->run)) {
+        json_t *json = session_json(session, args, summary);
+        written = json_file_write(json, args->json, error);
+        json_decref(json);
+    }
+    return run_agree(&session->run, written, error);
 }
 
 int session_fail(const Session *session, const Args *args, const Summary *summary, const Error *error)
 {
+    if (!run_is_first(&session->run))
+        return EXIT_FAILED;
     fprintf(stderr, "%s\n", error->message);
-    json_t *json = session->world ? session_json(session, args, summary) : NULL;
+    json_t *json = session->run.world ? session_json(session, args, summary) : NULL;
     if (json)
         json_object_set_new(json, "error", json_string(error->message));
     else /* no world, or non-finite numbers */

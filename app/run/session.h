@@ -6,12 +6,11 @@
 #include "app/base/program.h"
 #include "app/cli/args/args.h"
 #include "app/files/snapshot.h"
-#include "app/input/box_control.h"
-#include "app/run/measure/metric.h"
-#include "app/run/measure/outcome.h"
-#include "app/run/measure/probe.h"
+#include "app/input/input.h"
+#include "app/run/measure/measure.h"
 #include "app/run/offscreen.h"
 #include "app/run/recording/recording.h"
+#include "app/run/run.h"
 #include "app/scene/scene.h"
 #include "slosh/error.h"
 #include "slosh/world.h"
@@ -22,35 +21,21 @@
 
 /* A scene and its world, as opened and advanced by `run` and `render`. */
 
-/* Troubles of the sentinel already reported: each kind of trouble with each halving once. */
-typedef struct TroubleReports {
-    unsigned count;                        /* of the world's troubles seen so far */
-    unsigned halvings[STEP_TROUBLE_COUNT]; /* bit n: with 1 / 2^n of the step */
-} TroubleReports;
-
 typedef struct Session {
-    Scene scene;
-    char prefix[160];  /* prefix of messages in a group of sessions, "particles 2000: "; "": none */
-    Headless *context; /* current; NULL if neither solver nor pictures need a context */
-    bool borrows;      /* the context belongs to a different session, which closes it */
-    World *world;
+    Run run;            /* on ranks all functions with a Session are collective, and the first prints */
+    char prefix[160];   /* prefix of messages in a group of sessions, "particles 2000: "; "": none */
+    Headless *context;  /* current; NULL if neither solver nor pictures need a context */
+    bool borrows;       /* the context belongs to a different session, which closes it */
     DeviceReplay *hand; /* of --device: moves the box before each step; NULL: none */
-    WorldInfo info;     /* of the present state */
     double began_ms;    /* wall time of the start */
-    TroubleReports reported_trouble;
-    bool reported_full;        /* reported: emitters wait */
-    uint64_t reported_blocked; /* bits of emitter gates already reported as blocked */
-    bool reported_lost;        /* reported: particles have no cell in the grid */
-    bool reported_unlisted;
-    FluidWatch watch;
 } Session;
 
 /* Opens the session: loads the command line's only scene and the recording of --device, and reports the
    effect of --particles on dt on standard error. Makes the world, and a context if the backend needs one;
-   draws nothing and creates no file. With --resume the world starts from its file even where tables give the
-   start (app/scene/scene_files.h), as tables may be gone. Returns 0 or the exit code: EXIT_USAGE for a wrong
+   draws nothing and creates no file. With `resume` the world starts from its file even where tables give the
+   start (app/scene/scene.h), as tables may be gone. Returns 0 or the exit code: EXIT_USAGE for a wrong
    command line or scene, EXIT_FAILED for a failing GPU. */
-int session_open(Session *session, const Args *args, Error *error);
+int session_open(Session *session, const Args *args, bool resume, Error *error);
 
 /* Opens a session for drawing a loaded scene. Several sessions in a process share a context: the first
    session creates the context (NULL), and must be closed last. `name`: the session's name in the group, or
@@ -58,8 +43,8 @@ int session_open(Session *session, const Args *args, Error *error);
 int session_open_scene(Session *session, const Args *args, const Scene *scene, const char *name,
                        Headless *context, Error *error);
 
-/* Makes context and world of session->scene: the second half of session_open. `gpu` as of headless_create;
-   `draws`: needs a context for any backend. */
+/* Makes context and world of session->run.scene: the second half of session_open. `gpu` as of
+   headless_create; `draws`: needs a context for any backend. */
 int session_start(Session *session, int gpu, bool draws, Error *error);
 
 void session_close(Session *session);
@@ -72,27 +57,12 @@ bool session_reached(const Session *session, double time);
 bool session_step(Session *session, Error *error);
 bool session_substep(Session *session, Error *error); /* one step of a frame */
 
+/* True after a signal to stop, on ranks to any rank. */
+bool session_interrupted(const Session *session);
+
 /* Warns on standard error if `what`, one per `interval` s for `span` s, will be at uneven times. Only in mode
    fixed, if the frame does not divide the interval and the error shows within the span. */
 void session_warn_uneven(const Session *session, const char *what, double interval, double span);
-
-/* True once per new trouble; marks the trouble as reported. */
-bool session_trouble_is_new(TroubleReports *told, const WorldTrouble *trouble);
-
-/* The sentinel's action, in words. */
-const char *session_trouble_text(const WorldTrouble *trouble, char words[256]);
-
-/* Waiting emitters, in words. */
-const char *session_full_text(const WorldInfo *info, char words[256]);
-
-/* Blocked emitters, in words, without the emitters in `told`; adds the new emitters to `told`. */
-const char *session_blocked_text(const WorldInfo *info, uint64_t *told, char words[256]);
-
-/* Particles without a cell in the grid, in words. */
-const char *session_lost_text(const WorldInfo *info, char words[256]);
-
-/* Lack of memory for the data that make steps fast, in words. */
-const char *session_unlisted_text(const WorldInfo *info, char words[256]);
 
 /* Final figures of a command, for standard error and --json FILE. */
 typedef struct Summary {
@@ -148,23 +118,19 @@ const char *step_limits_text(const uint64_t limited[STEP_LIMIT_COUNT], char word
 
 /* Zero-initialise before use. */
 typedef struct ProbeSeries {
-    Probes *probes;     /* NULL: no probes; all fields below are unused */
-    const Cloud *given; /* particles for the probes, in order; NULL: of the world, copied into */
-    Cloud cloud;
-    float *value; /* one row */
     ProbeTable table;
     unsigned troubles; /* count of the world's troubles at the last row */
-    bool feels;        /* a probe measures a force, from */
-    Forces felt;       /* the forces summed since the last probe_series_forces */
+    Forces forces;     /* if a probe measures a force: summed since the last probe_series_forces */
 } ProbeSeries;
 
-/* Opens the table at `path`. New tables start with a row of the present state; `resumed` tables continue
-   after their rows up to now. A NULL path means no table. Returns false with the reason. */
+/* Opens the run's probes, and the table at `path`. New tables start with a row of the present state;
+   `resumed` tables continue after their rows up to now. A NULL path means no table. Returns false with the
+   reason. */
 bool probe_series_begin(ProbeSeries *series, Session *session, const char *path, bool resumed, Error *error);
 
 /* Call after each step of a frame: reads a row, or drops the rows of a frame that the world has taken
    back. */
-bool probe_series_step(ProbeSeries *series, const Session *session, Error *error);
+bool probe_series_step(ProbeSeries *series, Session *session, Error *error);
 
 /* Forces since the last call, as from world_forces. While a probe measures a force, call this function
    instead of world_forces. */
@@ -173,7 +139,7 @@ void probe_series_forces(ProbeSeries *series, Session *session, Forces *forces);
 /* Writes the frame's rows to the file at the end of a frame. On a GPU waits for the frame. */
 bool probe_series_frame(ProbeSeries *series, const Session *session, Error *error);
 
-/* Close the table but keep its figures; then free all. */
+/* Close the table but keep the figures; then free all, before session_close. */
 bool probe_series_close(ProbeSeries *series, Error *error);
 void probe_series_free(ProbeSeries *series);
 

@@ -6,10 +6,18 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool same_key(const char *a, const char *b)
+/* True if both set the same key of the same element. */
+static bool same_key(const SimCommand *a, const SimCommand *b)
 {
-    const size_t key = strcspn(a, "=");
-    return key == strcspn(b, "=") && strncmp(a, b, key) == 0;
+    if (a->kind == SIM_VALUE)
+        return a->value.key == b->value.key && a->value.element == b->value.element;
+    const size_t key = strcspn(a->setting, "=");
+    return key == strcspn(b->setting, "=") && strncmp(a->setting, b->setting, key) == 0;
+}
+
+static bool is_setting(const SimCommand *command)
+{
+    return command->kind == SIM_SET || command->kind == SIM_VALUE;
 }
 
 /* True if `newer` may replace `older`. A finger does not replace a waiting end of touching: a finger that
@@ -17,9 +25,9 @@ static bool same_key(const char *a, const char *b)
 static bool replaces(const SimCommand *newer, const SimCommand *older)
 {
     return newer->kind == older->kind &&
-           (newer->kind == SIM_TARGET || newer->kind == SIM_SHUT || newer->kind == SIM_SIZE ||
+           (newer->kind == SIM_TARGET || newer->kind == SIM_GATES || newer->kind == SIM_SIZE ||
             (newer->kind == SIM_TOUCH && newer->finger.way == older->finger.way) ||
-            (newer->kind == SIM_SET && same_key(newer->setting, older->setting)));
+            (is_setting(newer) && same_key(newer, older)));
 }
 
 static bool is_pose(const SimCommand *command)
@@ -34,7 +42,7 @@ static bool is_touch(const SimCommand *command)
 
 static bool is_of_hand(const SimCommand *command)
 {
-    return command->kind != SIM_SET;
+    return !is_setting(command);
 }
 
 static void drop(CommandQueue *queue, bool (*which)(const SimCommand *command))
@@ -98,15 +106,15 @@ bool simulator_fresh(const Simulator *simulator)
 bool simulator_share(Simulator *simulator, unsigned attributes, ParticleBuffers *out)
 {
     simulator->shown = simulator->published;
-    if (!simulator->world)
+    if (!simulator->run.world)
         return false;
-    world_share(simulator->world, attributes, out);
+    world_share(simulator->run.world, attributes, out);
     return true;
 }
 
 bool simulator_reload(Simulator *simulator, Error *error)
 {
-    return !simulator->on_gpu || !simulator->world || world_reload(simulator->world, error);
+    return !simulator->on_gpu || !simulator->run.world || world_reload(simulator->run.world, error);
 }
 
 static void change_begin(Simulator *simulator)
@@ -153,9 +161,9 @@ void simulator_go_by(Simulator *simulator, double seconds)
 {
     change_begin(simulator);
     const TravelRequest *request = &simulator->request;
-    const SimulatorHistory *past = &simulator->status.past;
+    const SimulatorHistory *timeline = &simulator->status.timeline;
     const double from = request->pending && !request->by_frames ? request->time : simulator->status.time;
-    request_time(simulator, fmin(fmax(from, past->from), past->to) + seconds);
+    request_time(simulator, fmin(fmax(from, timeline->from), timeline->to) + seconds);
     change_end(simulator);
 }
 
@@ -290,10 +298,10 @@ uint64_t simulator_applied(Simulator *simulator, uint64_t step)
     bool found = false;
     pthread_mutex_lock(&simulator->lock);
     for (int back = 1; back <= APPLIED_MAX && !found; back++) {
-        const AppliedCommands *obeyed =
-            &simulator->obeyed[(simulator->obeyed_next + APPLIED_MAX - back) % APPLIED_MAX];
-        found = obeyed->step == step;
-        commands = found ? obeyed->commands : 0;
+        const AppliedCommands *applied =
+            &simulator->applied[(simulator->applied_next + APPLIED_MAX - back) % APPLIED_MAX];
+        found = applied->step == step;
+        commands = found ? applied->commands : 0;
     }
     pthread_mutex_unlock(&simulator->lock);
     return commands;
@@ -309,13 +317,8 @@ void simulator_status(Simulator *simulator, SimulatorStatus *status)
     status->ended = simulator->ended;
     status->saving = simulator->saving;
     status->realtime = simulator->realtime;
-    status->past.travelling |= simulator->request.pending;
+    status->timeline.travelling |= simulator->request.pending;
     status->speed = simulator->speed;
-    const int count = status->history_count, next = simulator->history_next;
-    for (int i = 0; i < count; i++)
-        status->history[i] =
-            simulator->status.history[(next - count + i + SIMULATOR_HISTORY) % SIMULATOR_HISTORY];
-    simulator_gauge_status(simulator, status);
-    simulator_probes_status(simulator, status);
+    simulator_rings(simulator, status);
     pthread_mutex_unlock(&simulator->lock);
 }

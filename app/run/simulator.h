@@ -19,12 +19,11 @@
 #ifndef APP_RUN_SIMULATOR_H
 #define APP_RUN_SIMULATOR_H
 
-#include "app/run/measure/probe.h"
+#include "app/run/measure/measure.h"
 #include "app/run/recording/recording.h"
-#include "app/run/recording/sim_command.h"
 #include "app/scene/scene.h"
-#include "render/particles/upload.h"
-#include "sim/gpu/timer.h"
+#include "render/particles/particles.h"
+#include "sim/gpu/gl.h"
 #include "slosh/error.h"
 #include "slosh/world.h"
 
@@ -44,7 +43,7 @@ typedef struct SimulatorSetup {
     GlTimer *timer;     /* for the stages on a GPU, which SimulatorStatus then lacks; may be NULL */
     void (*wake)(void); /* called on the solver's thread after each new state; may be NULL */
     bool paused;
-    size_t history_bytes; /* memory for states to go back to (app/run/history.h); 0: no past */
+    size_t history_bytes; /* memory for states to go back to (app/run/simulator_private.h); 0: no past */
     bool follows; /* follows a leader: starts with the leader, and obeys only commands sent to the follower */
     int follower_count;
     Simulator *const *followers; /* at most SIMULATOR_FOLLOWERS; must outlive the leader */
@@ -145,7 +144,7 @@ bool simulator_unsaved(Simulator *simulator);
    never. On a GPU probes wait for all particles. */
 void simulator_watch(Simulator *simulator, bool gauges, bool probes);
 
-enum { SIMULATOR_HISTORY = 120, SIMULATOR_GAUGES = 120 };
+enum { SIMULATOR_RING = 120, SIMULATOR_HISTORY = SIMULATOR_RING, SIMULATOR_GAUGES = SIMULATOR_RING };
 
 /* A state's gauge, and the step before the state. */
 typedef struct GaugeSample {
@@ -162,8 +161,8 @@ typedef struct ProbeSample {
 
 /* The simulation's position in its past. */
 typedef struct SimulatorHistory {
-    bool kept;        /* a past is kept: SimulatorSetup.history_bytes */
-    bool behind;      /* the present state is older than the newest */
+    bool enabled;     /* a past is kept: SimulatorSetup.history_bytes */
+    bool rewound;     /* the present state is older than the newest */
     double from, to;  /* s: range of simulator_go_to */
     unsigned travels; /* count of jumps and of recorded commands obeyed again: each resets settings and hand
                          to their old values (simulator_settings) */
@@ -201,7 +200,7 @@ typedef struct SimulatorStatus {
     SolveFigures solved;                /* sum since the scene's start */
     StepLimit limit;                    /* limit of the size of the last step */
     uint64_t limited[STEP_LIMIT_COUNT]; /* count of steps per limit since the scene's start */
-    uint64_t shut;                      /* closed gates: world_shut_gates */
+    uint64_t closed_gates;              /* closed gates: world_close_gates */
     uint64_t step, frames;              /* since the scene's start */
     size_t particles;                   /* of the last state */
     size_t lost;                        /* particles without a cell in the grid, in the last known step */
@@ -218,7 +217,7 @@ typedef struct SimulatorStatus {
     GaugeSample gauges[SIMULATOR_GAUGES];
     int probe_count; /* as gauge_count, for `probes` */
     ProbeSample probes[SIMULATOR_GAUGES];
-    SimulatorHistory past;
+    SimulatorHistory timeline;
     ScriptState script;
     uint64_t script_steps;   /* length of the script */
     bool unsaved;            /* changed since the start, or since the last successful simulator_save */

@@ -1,8 +1,6 @@
 /* Travel in time: keeps the past and goes to earlier places. Behind the newest state time follows the
    recording, until the user acts. */
-#include "app/run/session.h"
 #include "app/run/simulator_private.h"
-#include "app/scene/scene.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -13,15 +11,12 @@ static void simulator_cut(Simulator *simulator);
 
 void simulator_history_begin(Simulator *simulator)
 {
-    WorldInfo info;
-    simulator->behind = false;
+    simulator->rewound = false;
     simulator->at = 0;
     simulator->reported_short = simulator->reported_other = simulator->reported_long = false;
     simulator->reported_none = simulator->reported_kept = false;
-    if (!simulator->history || !simulator->world)
-        return;
-    world_info(simulator->world, &info);
-    history_begin(simulator->history, &info);
+    if (simulator->history && simulator->run.world)
+        history_begin(simulator->history, &simulator->run.info);
 }
 
 /* Reports once the reach of the past when memory limits it. */
@@ -45,20 +40,19 @@ static void tell_short(Simulator *simulator)
 /* True if the world is at the begin of frame `at`. */
 static bool at_its_place(const Simulator *simulator)
 {
-    WorldInfo info;
-    world_info(simulator->world, &info);
-    return history_place(simulator->history, simulator->at).step == info.step;
+    return history_place(simulator->history, simulator->at).step == simulator->run.info.step;
 }
 
 static void keep(Simulator *simulator, bool now)
 {
-    history_keep(simulator->history, simulator->world, &simulator->scene, simulator->recording.count, now);
+    history_keep(simulator->history, simulator->run.world, &simulator->run.scene, simulator->recording.count,
+                 now);
     tell_short(simulator);
 }
 
 void simulator_history_keep(Simulator *simulator)
 {
-    if (simulator->history && !simulator->recording_lost && !simulator->behind && at_its_place(simulator))
+    if (simulator->history && !simulator->recording_lost && !simulator->rewound && at_its_place(simulator))
         keep(simulator, false);
 }
 
@@ -66,50 +60,52 @@ void simulator_history_keep(Simulator *simulator)
 static void come_to_newest(Simulator *simulator)
 {
     simulator_apply_recorded(simulator);
-    simulator->behind = false;
+    simulator->rewound = false;
 }
 
 /* Behind the newest state frames end at the recorded steps, except on a backend that is not reproducible:
    then the rest of the recording is cut off. */
-static void follow(Simulator *simulator, const WorldInfo *info)
+static void follow(Simulator *simulator)
 {
     simulator->at++;
-    if (history_place(simulator->history, simulator->at).step != info->step) {
+    if (!at_its_place(simulator)) {
         simulator->at--;
         simulator_cut(simulator);
-        history_add_place(simulator->history, info, 0);
+        history_add_place(simulator->history, &simulator->run.info, 0);
         simulator->at++;
     } else if (simulator->at == history_last(simulator->history)) {
         come_to_newest(simulator);
     }
 }
 
-void simulator_history_mark(Simulator *simulator, const WorldInfo *info, double frame_ms)
+void simulator_history_mark(Simulator *simulator, double frame_ms)
 {
+    const WorldInfo *info = &simulator->run.info;
     if (!simulator->history || (info->within_frame && !info->trouble.ended))
         return;
-    if (simulator->behind) {
-        follow(simulator, info);
+    if (simulator->rewound) {
+        follow(simulator);
     } else {
         history_add_place(simulator->history, info, frame_ms);
         simulator->at = history_last(simulator->history);
     }
     pthread_mutex_lock(&simulator->lock);
-    simulator_history_status(simulator, info);
+    simulator_history_status(simulator);
     pthread_mutex_unlock(&simulator->lock);
 }
 
-void simulator_history_status(Simulator *simulator, const WorldInfo *info)
+void simulator_history_status(Simulator *simulator)
 {
+    const double now = simulator->run.info.time;
     const History *history = simulator->history;
-    SimulatorHistory *status = &simulator->status.past;
+    SimulatorHistory *status = &simulator->status.timeline;
     if (!history)
         return;
     const HistoryFigures figures = history_figures(history);
-    status->kept = true;
-    status->behind = simulator->behind;
-    status->from = figures.states > 0 ? history_place(history, history_first(history)).time : info->time;
-    status->to = simulator->behind ? simulator->newest.time : info->time;
+    status->enabled = true;
+    status->rewound = simulator->rewound;
+    status->from = figures.states > 0 ? history_place(history, history_first(history)).time : now;
+    status->to = simulator->rewound ? simulator->newest.time : now;
     status->bytes = figures.bytes;
     status->states = figures.states;
 }
@@ -118,7 +114,7 @@ void simulator_history_status(Simulator *simulator, const WorldInfo *info)
 static BoxTarget target_at(const Simulator *simulator)
 {
     const Recording *recording = &simulator->recording;
-    for (size_t i = simulator->behind ? simulator->next : recording->count; i > 0; i--)
+    for (size_t i = simulator->rewound ? simulator->next : recording->count; i > 0; i--)
         if (sim_command_poses(&recording->commands[i - 1]))
             return recording->commands[i - 1].target;
     return (BoxTarget){.orientation = {0, 0, 0, 1}};
@@ -128,9 +124,9 @@ void simulator_report_travel(Simulator *simulator)
 {
     const BoxTarget target = target_at(simulator);
     pthread_mutex_lock(&simulator->lock);
-    simulator->settings = simulator->scene.world;
-    simulator->status.past.target = target;
-    simulator->status.past.travels++;
+    simulator->settings = simulator->run.scene.world;
+    simulator->status.timeline.target = target;
+    simulator->status.timeline.travels++;
     pthread_mutex_unlock(&simulator->lock);
 }
 
@@ -138,42 +134,34 @@ void simulator_apply_recorded(Simulator *simulator)
 {
     const Recording *recording = &simulator->recording;
     Error error = {{0}};
-    WorldInfo info;
     const size_t from = simulator->next;
-    if (!simulator->behind)
+    if (!simulator->rewound)
         return;
-    world_info(simulator->world, &info);
-    for (; simulator->next < recording->count; simulator->next++) {
-        const SimCommand *command = &recording->commands[simulator->next];
-        if (command->step > info.step)
-            break;
-        if (!sim_command_apply(command, &simulator->world, &simulator->scene, &error))
+    for (const SimCommand *command;
+         (command = recording_due(recording, &simulator->next, simulator->run.info.step)) != NULL;)
+        if (!run_apply(&simulator->run, command, &error))
             simulator_report(simulator, false, error.message); /* memory is short */
-    }
     if (simulator->next > from)
         simulator_report_travel(simulator);
 }
 
 void simulator_lift_finger(Simulator *simulator)
 {
-    WorldInfo info;
-    world_info(simulator->world, &info);
-    const SimCommand command = {.step = info.step, .kind = SIM_TOUCH};
-    if (info.touched)
+    const SimCommand command = {.step = simulator->run.info.step, .kind = SIM_TOUCH};
+    if (simulator->run.info.touched)
         simulator_apply(simulator, &command);
 }
 
 static void simulator_cut(Simulator *simulator)
 {
-    WorldInfo info;
+    const double now = simulator->run.info.time;
     char words[160];
-    if (!simulator->behind)
+    if (!simulator->rewound)
         return;
-    world_info(simulator->world, &info);
     snprintf(words, sizeof words,
-             "t = %.4g s: the session goes on from here; the %.3g s that came after are cut off", info.time,
-             simulator->newest.time - info.time);
-    simulator->behind = false;
+             "t = %.4g s: the session goes on from here; the %.3g s that came after are cut off", now,
+             simulator->newest.time - now);
+    simulator->rewound = false;
     pthread_mutex_lock(&simulator->lock);
     simulator->recording.count = simulator->next;
     pthread_mutex_unlock(&simulator->lock);
@@ -182,7 +170,7 @@ static void simulator_cut(Simulator *simulator)
     if (!simulator->follows)
         simulator_report(simulator, false, words);
     for (int i = 0; i < simulator->follower_count; i++) /* even if the setting does not apply to a follower */
-        if (simulator->followers[i]->world)
+        if (simulator->followers[i]->run.world)
             simulator_cut(simulator->followers[i]);
 }
 
@@ -199,25 +187,25 @@ void simulator_cut_for(Simulator *simulator, const SimCommand commands[], int co
 /* Leaves the newest state, and notes its hash: a later save still covers the whole session. */
 static void leave(Simulator *simulator)
 {
-    WorldInfo info;
-    world_info(simulator->world, &info);
+    const WorldInfo *info = &simulator->run.info;
     if (!simulator->status.failed) /* otherwise the failed frame must fail again */
         keep(simulator, true);
-    simulator->newest = (NewestState){info.step, world_hash(simulator->world), info.time};
+    simulator->newest = (NewestState){info->step, world_hash(simulator->run.world), info->time};
     simulator->next = simulator->recording.count;
-    simulator->behind = true;
+    simulator->rewound = true;
 }
 
 static bool load(Simulator *simulator, uint64_t place)
 {
     Error error = {{0}};
-    const bool accelerations = simulator->scene.world.acceleration; /* accelerations stay on once kept */
-    if (!history_load(simulator->history, place, &simulator->world, &simulator->scene, &simulator->next,
-                      &error)) {
+    const bool accelerations = simulator->run.scene.world.acceleration; /* accelerations stay on once kept */
+    if (!history_load(simulator->history, place, &simulator->run.world, &simulator->run.scene,
+                      &simulator->next, &error)) {
         simulator_report(simulator, false, error.message);
         return false;
     }
-    simulator->scene.world.acceleration = accelerations;
+    simulator->run.scene.world.acceleration = accelerations;
+    world_info(simulator->run.world, &simulator->run.info);
     simulator->at = history_state_before(simulator->history, place);
     return true;
 }
@@ -226,14 +214,12 @@ static bool load(Simulator *simulator, uint64_t place)
 static bool frame_again(Simulator *simulator)
 {
     Error error = {{0}};
-    WorldInfo info;
     bool ok = true;
     do {
         simulator_apply_recorded(simulator);
-        ok = world_substep(simulator->world, NULL, &error);
-        world_info(simulator->world, &info);
-    } while (ok && info.within_frame);
-    simulator_history_mark(simulator, &info, 0);
+        ok = run_substep_again(&simulator->run, &error);
+    } while (ok && simulator->run.info.within_frame);
+    simulator_history_mark(simulator, 0);
     if (!ok)
         simulator_report(simulator, true, error.message);
     return ok;
@@ -248,7 +234,7 @@ static bool go(Simulator *simulator, uint64_t place)
         return false;
     if (simulator->at == last)
         come_to_newest(simulator);
-    while (simulator->behind && simulator->at < place)
+    while (simulator->rewound && simulator->at < place)
         if (!frame_again(simulator))
             return false;
     return true;
@@ -256,7 +242,7 @@ static bool go(Simulator *simulator, uint64_t place)
 
 static bool same_bits(const Simulator *simulator)
 {
-    const WorldDef *def = &simulator->scene.world;
+    const WorldDef *def = &simulator->run.scene.world;
     return strcmp(def->backend, "compute") != 0 || def->reproducible;
 }
 
@@ -264,17 +250,16 @@ static bool same_bits(const Simulator *simulator)
 static void arrive(Simulator *simulator)
 {
     Error error = {{0}};
-    WorldInfo info;
-    world_info(simulator->world, &info);
+    const double now = simulator->run.info.time;
     pthread_mutex_lock(&simulator->lock);
-    simulator->status.time = info.time;
+    simulator->status.time = now;
     pthread_mutex_unlock(&simulator->lock);
     simulator_report_travel(simulator);
     if (!simulator->follows && simulator->follower_count == 0 && /* otherwise: simulator_lead_travel */
         !simulator_publish(simulator, &error))
         simulator_report(simulator, true, error.message);
-    simulator_gauge_back(simulator, info.time);
-    simulator_probes_back(simulator, info.time);
+    simulator_gauge_back(simulator, now);
+    simulator_probes_back(simulator, now);
 }
 
 static uint64_t place_of(const Simulator *simulator, const TravelRequest *request)
@@ -294,29 +279,27 @@ static uint64_t place_of(const Simulator *simulator, const TravelRequest *reques
 static void jump_done(Simulator *simulator, double began)
 {
     pthread_mutex_lock(&simulator->lock);
-    simulator->status.past.travelling = false;
-    simulator->status.past.last_jump_ms = wall_ms() - began;
+    simulator->status.timeline.travelling = false;
+    simulator->status.timeline.last_jump_ms = wall_ms() - began;
     pthread_mutex_unlock(&simulator->lock);
 }
 
-static void tell_once(Simulator *simulator, bool *told, const char *words)
+static void tell_once(Simulator *simulator, bool *reported, const char *words)
 {
-    if (!*told)
+    if (!*reported)
         simulator_report(simulator, false, words);
-    *told = true;
+    *reported = true;
 }
 
 /* Before a jump: obeys waiting settings and completes the present frame. */
 static void finish_present(Simulator *simulator, SimulatorWork *work)
 {
-    WorldInfo info;
     simulator_cut_for(simulator, work->commands.commands, work->commands.count);
-    world_info(simulator->world, &info);
     for (int i = 0; i < work->commands.count; i++) {
-        work->commands.commands[i].step = info.step;
+        work->commands.commands[i].step = simulator->run.info.step;
         simulator_apply(simulator, &work->commands.commands[i]);
     }
-    if (!simulator->behind && !simulator->scripted) /* a script continues at its old place */
+    if (!simulator->rewound && !simulator->scripted) /* a script continues at its old place */
         simulator_lift_finger(simulator);
     if (!at_its_place(simulator))
         frame_again(simulator);
@@ -326,7 +309,7 @@ void simulator_travel(Simulator *simulator, SimulatorWork *work)
 {
     const double began = wall_ms();
     simulator_stop_resizing(simulator);
-    if (!simulator->world) {
+    if (!simulator->run.world) {
         jump_done(simulator, began);
         return;
     }
@@ -340,7 +323,7 @@ void simulator_travel(Simulator *simulator, SimulatorWork *work)
         return;
     }
     finish_present(simulator, work);
-    if (!simulator->behind)
+    if (!simulator->rewound)
         leave(simulator);
     const uint64_t place = place_of(simulator, &work->request);
     if (!same_bits(simulator) && place < history_last(simulator->history))

@@ -1,16 +1,95 @@
-/* Private state of a simulator, for its source files. simulator.c takes requests, simulator_thread.c picks
-   the due work and its thread, simulator_step.c does the work, simulator_history.c travels in time. */
+/* Private parts of a running simulation: its history, and the state of a simulator for the source files. */
 #ifndef APP_RUN_SIMULATOR_PRIVATE_H
 #define APP_RUN_SIMULATOR_PRIVATE_H
 
-#include "app/run/history.h"
-#include "app/run/measure/outcome.h"
-#include "app/run/recording/sim_command.h"
+#include "app/run/measure/measure.h"
+#include "app/run/recording/recording.h"
+#include "app/run/run.h"
 #include "app/run/session.h"
 #include "app/run/simulator.h"
+#include "app/scene/scene.h"
+#include "slosh/error.h"
 #include "slosh/world.h"
 
 #include <pthread.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* The past of a running simulation: earlier states within a memory limit, for going back in time.
+
+   A place is the begin of a frame and has a number: 0 at the start of the scene, then one more per frame.
+   Step and time are known of each place. Some places also have the full state (world_save: all inputs of the
+   next step), the scene's settings and the count of obeyed commands. To reach a place between two states,
+   load the state before and simulate on with the recorded commands, which gives the same bits. So a jump
+   takes at most the time of the frames between two states. A state is kept every HISTORY_GAP_MS of frame
+   time, or less often if copies would take more than a fiftieth of the time.
+
+   When memory is full, every other state goes where jumps stay short, oldest first. Otherwise the oldest
+   state goes, with all places before the next state. If less than HISTORY_WANTED_S of past remains, jumps may
+   get longer before the oldest state goes. Not thread-safe. */
+
+/* Frame time between two states, ms: while memory lasts; then the maximum; then the maximum if the past is
+   shorter than HISTORY_WANTED_S seconds. The target for a jump is 200 ms, with loading and drawing included.
+ */
+#define HISTORY_GAP_MS       50.0
+#define HISTORY_GAP_MOST_MS  150.0
+#define HISTORY_GAP_SHORT_MS 1000.0
+#define HISTORY_WANTED_S     10.0
+
+typedef struct History History;
+
+typedef struct HistoryPlace {
+    uint64_t step;
+    double time; /* s */
+} HistoryPlace;
+
+/* Creates a past of at most bytes_most. Returns NULL if memory is short. */
+History *history_create(size_t bytes_most);
+void history_destroy(History *history); /* NULL is allowed */
+
+/* Forgets all places; the world's present state becomes place 0 (history_add_place). */
+void history_begin(History *history, const WorldInfo *info);
+
+/* Adds the next place after a frame of frame_ms. */
+void history_add_place(History *history, const WorldInfo *info, double frame_ms);
+
+/* Keeps the world's present state at the last place if a state is due, or if `now`. `scene`: with the changes
+   by commands, of which `next` were obeyed. The state is not kept if memory is short or the state is unsound.
+   Waits for a GPU, as the begin of the next frame would. */
+void history_keep(History *history, World *world, const Scene *scene, size_t next, bool now);
+
+/* The oldest reachable place, and the last place; both are the last if no state is kept. */
+uint64_t history_first(const History *history);
+uint64_t history_last(const History *history);
+
+/* Step and time of a place between first and last. */
+HistoryPlace history_place(const History *history, uint64_t place);
+
+/* The last reachable place at or before `time`. After a failure the last place has the time to which the
+   simulation returned: the result is then the place before. */
+uint64_t history_find(const History *history, double time);
+
+/* The place whose state is loaded for `place`: the place itself, or the last kept state before. */
+uint64_t history_state_before(const History *history, uint64_t place);
+
+/* Loads the state of history_state_before(place) into the world; sets `scene` and *next accordingly. Returns
+   false with the reason, with no changes. */
+bool history_load(const History *history, uint64_t place, World **world, Scene *scene, size_t *next,
+                  Error *error);
+
+/* Forgets the places after `place`, which becomes the last. */
+void history_cut(History *history, uint64_t place);
+
+typedef struct HistoryFigures {
+    size_t bytes, bytes_most, state_bytes; /* held; allowed; of the last state */
+    size_t states;
+    bool dropped; /* states were dropped for lack of memory, with less than HISTORY_WANTED_S left */
+} HistoryFigures;
+HistoryFigures history_figures(const History *history);
+
+/* Private state of a simulator, for its source files. simulator.c takes requests, simulator_thread.c picks
+   the due work and its thread, simulator_step.c does the work, simulator_history.c travels in time. */
 
 enum {
     APPLIED_MAX = 512,
@@ -77,9 +156,10 @@ struct Simulator {
     double last_due;   /* wall time at which the last frame was due, ms */
     double frame_time; /* simulated time of the last frame, s */
     SimulatorStatus status;
-    int history_next, gauge_next, probe_next, obeyed_next;
+    int history_next, gauge_next, probe_next; /* of the rings in `status` */
+    int applied_next;
     bool watched, watched_probes; /* gauges; probes */
-    AppliedCommands obeyed[APPLIED_MAX];
+    AppliedCommands applied[APPLIED_MAX];
 
     /* for the stepping thread only */
     bool here;    /* steps on the caller's thread: a backend is on a GPU, */
@@ -89,32 +169,22 @@ struct Simulator {
     Simulator *followers[SIMULATOR_FOLLOWERS];
     pthread_mutex_t showing; /* states of the leader and of the followers are being shown or taken */
     GlTimer *timer;          /* for stages on a GPU; may be NULL */
-    Scene start, scene;      /* as given; with the changes by commands */
-    World *world;
+    Scene start;             /* as given */
+    Run run;
     SimulatorWork *work;
     FrameInProgress frame;
     uint64_t published, shown; /* counts of states; used with `here` */
     GaugeSample gauge;         /* requested; its gauge is pending */
     double gauge_ms;           /* wall time of the request */
-    Probes *probes;            /* of the scene; NULL: none */
-    Cloud cloud;               /* for the probes */
-    float *read;               /* one number per column of the probes */
-    double probes_ms;          /* wall time of the last reading */
-    bool feels;                /* a probe measures a force, which the world sums */
+    double probes_ms;          /* wall time of the last reading of the probes */
     Recording recording;
-    TroubleReports reported_trouble;
-    bool reported_full;        /* reported: emitters wait */
-    uint64_t reported_blocked; /* bits of emitter gates already reported as blocked */
-    bool reported_lost;        /* reported: particles have no cell in the grid */
-    bool reported_unlisted;
-    FluidWatch watch;
     Recording script;    /* a session to play; its commands belong to the caller */
     size_t script_next;  /* index of the script's next command */
     bool scripted;       /* the script has not ended, and the user has not acted */
     bool recording_lost; /* memory was short for a command */
     History *history;    /* NULL: no states are kept */
     uint64_t at;         /* place of the present frame's begin */
-    bool behind;         /* later places exist: time follows the recording, */
+    bool rewound;        /* later places exist: time follows the recording, */
     size_t next;         /* index of its next command */
     NewestState newest;  /* used if `behind` */
     double resized_time; /* s, of the last change of simulator_continue_resizing; -INFINITY: none yet */
@@ -156,8 +226,8 @@ bool simulator_show(Simulator *simulator, Error *error);
    of a frame; mark: at its end. */
 void simulator_history_begin(Simulator *simulator);
 void simulator_history_keep(Simulator *simulator);
-void simulator_history_mark(Simulator *simulator, const WorldInfo *info, double frame_ms);
-void simulator_history_status(Simulator *simulator, const WorldInfo *info); /* with the lock held */
+void simulator_history_mark(Simulator *simulator, double frame_ms);
+void simulator_history_status(Simulator *simulator); /* with the lock held */
 
 /* Travels to work->request, between two frames. */
 void simulator_travel(Simulator *simulator, SimulatorWork *work);
@@ -184,13 +254,15 @@ void simulator_stop_resizing(Simulator *simulator);
 void simulator_gauge(Simulator *simulator);
 void simulator_gauge_begin(Simulator *simulator);
 void simulator_gauge_back(Simulator *simulator, double time); /* drops gauges of later times */
-void simulator_gauge_status(const Simulator *simulator, SimulatorStatus *status); /* with the lock held */
 
-/* After a frame; for a new world, with the scene's probes; at the end. */
+/* After a frame; for a new world, with the scene's probes. */
 void simulator_probes(Simulator *simulator);
 void simulator_probes_begin(Simulator *simulator);
-void simulator_probes_end(Simulator *simulator);
 void simulator_probes_back(Simulator *simulator, double time); /* drops readings of later times */
-void simulator_probes_status(const Simulator *simulator, SimulatorStatus *status); /* with the lock held */
+
+/* The rings of SimulatorStatus; with the lock held. simulator_ring_add: counts the entry written at `next`.
+   simulator_rings: copies all rings, oldest entries first. */
+void simulator_ring_add(int *next, int *count);
+void simulator_rings(const Simulator *simulator, SimulatorStatus *status);
 
 #endif

@@ -1,6 +1,6 @@
 /* Plays a recorded session: its commands are obeyed as if given by the user, and so join the new recording;
    going back in time works as in any session. The first command of the user takes over. */
-#include "app/run/recording/sim_command.h"
+#include "app/run/recording/recording.h"
 #include "app/run/session.h"
 #include "app/run/simulator_private.h"
 #include "slosh/state.h"
@@ -17,8 +17,7 @@ static void set_state(Simulator *simulator, ScriptState state)
     pthread_mutex_unlock(&simulator->lock);
 }
 
-/* simulator_script.c: for a new world; between two substeps, before the user's commands; when the user
-   acts. */
+/* The script starts anew with a new world. */
 static void simulator_script_begin(Simulator *simulator)
 {
     simulator->script_next = 0;
@@ -43,12 +42,8 @@ static void obey_due(Simulator *simulator, uint64_t step)
     pthread_mutex_lock(&simulator->lock);
     const bool unsaved = simulator->status.unsaved;
     pthread_mutex_unlock(&simulator->lock);
-    for (; simulator->script_next < script->count; simulator->script_next++) {
-        const SimCommand *command = &script->commands[simulator->script_next];
-        if (command->step > step)
-            break;
+    for (const SimCommand *command; (command = recording_due(script, &simulator->script_next, step)) != NULL;)
         simulator_apply(simulator, command);
-    }
     if (simulator->script_next == from)
         return;
     pthread_mutex_lock(&simulator->lock);
@@ -61,17 +56,16 @@ static void obey_due(Simulator *simulator, uint64_t step)
 static void simulator_script_apply(Simulator *simulator)
 {
     const Recording *script = &simulator->script;
-    WorldInfo info;
-    if (!simulator->scripted || simulator->behind)
+    const uint64_t step = simulator->run.info.step;
+    if (!simulator->scripted || simulator->rewound)
         return;
-    world_info(simulator->world, &info);
-    obey_due(simulator, info.step);
-    if (simulator->script_next < script->count || info.step < script->steps)
+    obey_due(simulator, step);
+    if (simulator->script_next < script->count || step < script->steps)
         return;
     simulator->scripted = false;
-    set_state(simulator, script->cut                                    ? SCRIPT_CUT
-                         : world_hash(simulator->world) == script->hash ? SCRIPT_SAME
-                                                                        : SCRIPT_OTHER);
+    set_state(simulator, script->cut                                        ? SCRIPT_CUT
+                         : world_hash(simulator->run.world) == script->hash ? SCRIPT_SAME
+                                                                            : SCRIPT_OTHER);
     simulator_lift_finger(simulator);
 }
 
@@ -124,7 +118,7 @@ void simulator_stop_resizing(Simulator *simulator)
 /* Limits `size` to the present reach of the walls. Returns false when the walls have arrived. */
 static bool next_size(const Simulator *simulator, double most, double size[3])
 {
-    const WorldDef *def = &simulator->scene.world;
+    const WorldDef *def = &simulator->run.scene.world;
     bool moves = false;
     for (int k = 0; k < def->dimensions; k++) {
         size[k] = fmax(size[k], def->box_size[k] - most);
@@ -133,7 +127,7 @@ static bool next_size(const Simulator *simulator, double most, double size[3])
     return moves;
 }
 
-/* simulator_size.c: between two substeps, after all commands; when time jumps or restarts. */
+/* Call between two substeps, after all commands. */
 static void simulator_continue_resizing(Simulator *simulator)
 {
     SimCommand command = {.kind = SIM_SIZE};
@@ -144,22 +138,22 @@ static void simulator_continue_resizing(Simulator *simulator)
     pthread_mutex_unlock(&simulator->lock);
     if (!resizing)
         return;
-    WorldInfo info;
-    world_info(simulator->world, &info);
-    const WorldDef *def = &simulator->scene.world;
+    const double time = simulator->run.info.time;
+    const WorldDef *def = &simulator->run.scene.world;
     WorldDef as_wanted = *def;
     memcpy(as_wanted.box_size, command.size, sizeof as_wanted.box_size);
     const double bite = BOX_SHRINK_MOST * def->spacing, pace = OF_SOUND * def->sound_speed,
-                 waited = info.time - simulator->resized_time;
-    const bool smooth = world_resizes(simulator->world, &as_wanted);
+                 waited = time - simulator->resized_time;
+    const bool smooth = world_resizes(simulator->run.world, &as_wanted);
     if (!smooth && pace * waited < bite)
         return;
-    if (!next_size(simulator, fmin(bite, pace * (isfinite(waited) ? waited : info.dt)), command.size)) {
+    if (!next_size(simulator, fmin(bite, pace * (isfinite(waited) ? waited : simulator->run.info.dt)),
+                   command.size)) {
         simulator_stop_resizing(simulator);
         return;
     }
-    command.step = info.step;
-    simulator->resized_time = info.time;
+    command.step = simulator->run.info.step;
+    simulator->resized_time = time;
     simulator_cut_for(simulator, &command, 1);
     simulator_apply(simulator, &command);
     if (simulator->status.messages != messages) /* the message has the reason */
@@ -189,20 +183,22 @@ static bool same_bytes(const void *a, const void *b, size_t size)
 /* Updates the solids and the box for views. */
 static void describe_solids(Simulator *simulator)
 {
-    const WorldDef *now = &simulator->scene.world;
-    WorldDef *told = &simulator->settings;
-    if (same_bytes(now->box_size, told->box_size, sizeof now->box_size) &&
-        now->solid_count == told->solid_count && same_bytes(now->solids, told->solids, sizeof now->solids))
+    const WorldDef *now = &simulator->run.scene.world;
+    WorldDef *current = &simulator->settings;
+    if (same_bytes(now->box_size, current->box_size, sizeof now->box_size) &&
+        now->solid_count == current->solid_count &&
+        same_bytes(now->solids, current->solids, sizeof now->solids))
         return;
-    memcpy(told->box_size, now->box_size, sizeof told->box_size);
-    told->solid_count = now->solid_count;
-    memcpy(told->solids, now->solids, sizeof told->solids);
+    memcpy(current->box_size, now->box_size, sizeof current->box_size);
+    current->solid_count = now->solid_count;
+    memcpy(current->solids, now->solids, sizeof current->solids);
     simulator->status.solids++;
 }
 
 /* Describes each new state for views. Call with the lock held. */
-static void describe(Simulator *simulator, const WorldInfo *info)
+static void describe(Simulator *simulator)
 {
+    const WorldInfo *info = &simulator->run.info;
     SimulatorStatus *status = &simulator->status;
     status->ready = true;
     status->simulated_s += fmax(info->time - status->time, 0);
@@ -214,25 +210,23 @@ static void describe(Simulator *simulator, const WorldInfo *info)
     memcpy(status->solves, info->solves, sizeof status->solves);
     status->solved = info->solved;
     status->hand = info->hand;
-    status->shut = world_gates_shut(simulator->world);
+    status->closed_gates = world_closed_gates(simulator->run.world);
     status->particles = info->count;
     status->lost = info->lost;
-    simulator_history_status(simulator, info);
+    simulator_history_status(simulator);
     describe_solids(simulator);
-    simulator->obeyed[simulator->obeyed_next] = (AppliedCommands){info->step, simulator->taken};
-    simulator->obeyed_next = (simulator->obeyed_next + 1) % APPLIED_MAX;
+    simulator->applied[simulator->applied_next] = (AppliedCommands){info->step, simulator->taken};
+    simulator->applied_next = (simulator->applied_next + 1) % APPLIED_MAX;
 }
 
 /* Describes the state, then shows it: in this order, so that a viewer can ask for the state's commands. */
 bool simulator_publish(Simulator *simulator, Error *error)
 {
-    WorldInfo info;
-    world_info(simulator->world, &info);
     pthread_mutex_lock(&simulator->lock);
-    describe(simulator, &info);
+    describe(simulator);
     pthread_mutex_unlock(&simulator->lock);
     simulator->published++;
-    return simulator->on_gpu || upload_write(simulator->upload, simulator->world, error);
+    return simulator->on_gpu || upload_write(simulator->upload, simulator->run.world, error);
 }
 
 static void awaken(const Simulator *simulator)
@@ -246,23 +240,18 @@ void simulator_make_world(Simulator *simulator)
 {
     Error error = {{0}};
     snprintf(simulator->start.world.backend, sizeof simulator->start.world.backend, "%s",
-             simulator->scene.world.backend); /* the present backend, which this thread supports */
-    simulator->start.world.acceleration |= simulator->scene.world.acceleration; /* stay on once kept */
-    simulator->scene = simulator->start;
+             simulator->run.scene.world.backend); /* the present backend, which this thread supports */
+    simulator->start.world.acceleration |= simulator->run.scene.world.acceleration; /* stay on once kept */
+    simulator->run.scene = simulator->start;
     simulator_stop_resizing(simulator);
-    world_destroy(simulator->world);
-    simulator->reported_trouble = (TroubleReports){0};
-    simulator->watch = (FluidWatch){0};
-    simulator->reported_full = simulator->reported_lost = simulator->reported_unlisted = false;
-    simulator->reported_blocked = 0;
-    simulator->world = world_create(&simulator->start.world, &error);
+    const bool made = run_begin(&simulator->run, &simulator->run.scene.world, &error);
     simulator_history_begin(simulator);
     simulator_gauge_begin(simulator);
     simulator_probes_begin(simulator);
     simulator_script_begin(simulator);
     const bool alone =
         !simulator->follows && simulator->follower_count == 0; /* otherwise simulator_lead shows all */
-    if (!simulator->world || (alone && !simulator_publish(simulator, &error)))
+    if (!made || (alone && !simulator_publish(simulator, &error)))
         simulator_report(simulator, true, error.message);
     awaken(simulator);
 }
@@ -286,9 +275,9 @@ static bool record(Simulator *simulator, const SimCommand *command)
 void simulator_apply(Simulator *simulator, const SimCommand *command)
 {
     Error error = {{0}};
-    if (!sim_command_apply(command, &simulator->world, &simulator->scene, &error)) {
+    if (!run_apply(&simulator->run, command, &error)) {
         simulator_report(simulator, false, error.message);
-    } else if (simulator->behind) { /* later commands stay (see simulator_cut_for) */
+    } else if (simulator->rewound) { /* later commands stay (see simulator_cut_for) */
         return;
     } else if (!simulator->recording_lost && !record(simulator, command)) {
         simulator->recording_lost = true;
@@ -304,7 +293,7 @@ void simulator_apply(Simulator *simulator, const SimCommand *command)
 void simulator_restart(Simulator *simulator, SimulatorWork *work)
 {
     Recording before = simulator->recording;
-    const size_t obeyed = simulator->behind ? simulator->next : before.count;
+    const size_t applied = simulator->rewound ? simulator->next : before.count;
     Error error = {{0}};
     pthread_mutex_lock(&simulator->lock);
     simulator->status.failed = false;
@@ -318,10 +307,10 @@ void simulator_restart(Simulator *simulator, SimulatorWork *work)
     pthread_mutex_unlock(&simulator->lock);
     static const CommandQueue none;
     work->commands = none;
-    for (size_t i = 0; i < obeyed && !simulator->scripted; i++) /* a restarted script has its own settings */
+    for (size_t i = 0; i < applied && !simulator->scripted; i++) /* a restarted script has its own settings */
         if (before.commands[i].kind == SIM_SET)
             command_queue_add(&work->commands, &before.commands[i]);
-    for (int i = 0; i < work->commands.count && simulator->world; i++) {
+    for (int i = 0; i < work->commands.count && simulator->run.world; i++) {
         work->commands.commands[i].step = 0;
         simulator_apply(simulator, &work->commands.commands[i]);
     }
@@ -336,16 +325,15 @@ void simulator_save_session(Simulator *simulator, const char *path)
     Error error = {{0}};
     bool ok = false;
     double saved_s = 0;
-    WorldInfo info;
-    if (!simulator->world) {
+    const WorldInfo *info = &simulator->run.info;
+    if (!simulator->run.world) {
         error_set(&error, "%s: there is no session to save", path);
     } else if (simulator->recording_lost) {
         error_set(&error, "%s: the session was too long to be kept", path);
     } else {
         NewestState end = simulator->newest;
-        world_info(simulator->world, &info);
-        if (!simulator->behind)
-            end = (NewestState){info.step, world_hash(simulator->world), info.time};
+        if (!simulator->rewound)
+            end = (NewestState){info->step, world_hash(simulator->run.world), info->time};
         saved_s = end.time;
         ok = recording_write(&simulator->recording, end.step, end.hash, path, &error);
     }
@@ -387,9 +375,7 @@ static void count_frame(Simulator *simulator, double spent, double simulated, co
     status->stages = clock->frame;
     status->solved_ms += spent;
     status->history[simulator->history_next] = (float)spent;
-    simulator->history_next = (simulator->history_next + 1) % SIMULATOR_HISTORY;
-    if (status->history_count < SIMULATOR_HISTORY)
-        status->history_count++;
+    simulator_ring_add(&simulator->history_next, &status->history_count);
     pace(simulator, now);
     pthread_mutex_unlock(&simulator->lock);
 }
@@ -398,7 +384,6 @@ static void count_frame(Simulator *simulator, double spent, double simulated, co
    false at the end of the thread. */
 static bool obey_all(Simulator *simulator, SimulatorWork *work)
 {
-    WorldInfo info;
     pthread_mutex_lock(&simulator->lock);
     const bool go_on = !simulator->quit;
     const uint64_t taken = simulator->sent;
@@ -408,9 +393,8 @@ static bool obey_all(Simulator *simulator, SimulatorWork *work)
     simulator_cut_for(simulator, work->commands.commands, work->commands.count);
     simulator_apply_recorded(simulator);
     simulator_script_apply(simulator);
-    world_info(simulator->world, &info);
     for (int i = 0; i < work->commands.count; i++) {
-        work->commands.commands[i].step = info.step;
+        work->commands.commands[i].step = simulator->run.info.step;
         simulator_apply(simulator, &work->commands.commands[i]);
     }
     simulator_continue_resizing(simulator);
@@ -418,54 +402,28 @@ static bool obey_all(Simulator *simulator, SimulatorWork *work)
     return go_on;
 }
 
-/* Reports a sentinel step back, waiting emitters or lost particles. */
-static void tell_news(Simulator *simulator, const WorldInfo *info)
-{
-    char words[256];
-    if (info->full && !simulator->reported_full)
-        simulator_report(simulator, false, session_full_text(info, words));
-    simulator->reported_full |= info->full;
-    if (info->barred & ~simulator->reported_blocked)
-        simulator_report(simulator, false, session_blocked_text(info, &simulator->reported_blocked, words));
-    if (info->lost && !simulator->reported_lost)
-        simulator_report(simulator, false, session_lost_text(info, words));
-    simulator->reported_lost |= info->lost > 0;
-    if (info->unlisted && !simulator->reported_unlisted)
-        simulator_report(simulator, false, session_unlisted_text(info, words));
-    simulator->reported_unlisted |= info->unlisted > 0;
-    if (session_trouble_is_new(&simulator->reported_trouble, &info->trouble))
-        simulator_report(simulator, false, session_trouble_text(&info->trouble, words));
-}
-
 void simulator_frame_begin(Simulator *simulator)
 {
-    WorldInfo info;
-    world_info(simulator->world, &info);
     simulator_history_keep(simulator);
-    simulator->frame = (FrameInProgress){.begun = true, .from_s = info.time};
+    simulator->frame = (FrameInProgress){.begun = true, .from_s = simulator->run.info.time};
     if (simulator->on_gpu && simulator->timer)
         simulator->frame.clock = gl_timer_stage_clock(simulator->timer);
 }
 
 void simulator_frame_end(Simulator *simulator)
 {
-    WorldInfo info;
-    world_info(simulator->world, &info);
     const FrameInProgress *frame = &simulator->frame;
     simulator->frame.begun = false;
-    simulator_history_mark(simulator, &info, frame->spent_ms);
-    count_frame(simulator, frame->spent_ms, info.time - frame->from_s, &frame->clock);
+    simulator_history_mark(simulator, frame->spent_ms);
+    count_frame(simulator, frame->spent_ms, simulator->run.info.time - frame->from_s, &frame->clock);
     simulator_gauge(simulator);
     simulator_probes(simulator);
     awaken(simulator);
 }
 
-/* Reports fluid that loses volume, clumps or leaks. */
-static void watch_fluid(Simulator *simulator)
+static void tell(void *user, const char *words)
 {
-    char words[FLUID_WATCH_WORDS];
-    if (fluid_watch(&simulator->watch, &simulator->scene.world, simulator->world, words))
-        simulator_report(simulator, false, words);
+    simulator_report(user, false, words);
 }
 
 /* States within a frame are shown only without a leader and followers. */
@@ -491,18 +449,15 @@ void simulator_frame_step(Simulator *simulator)
     StageClock *clock = simulator->on_gpu && !simulator->timer ? NULL : &simulator->frame.clock;
     Error error = {{0}};
     const double began = wall_ms();
-    WorldInfo info;
+    const WorldInfo *info = &simulator->run.info;
     if (!obey_all(simulator, simulator->work)) {
         simulator_frame_end(simulator);
         return;
     }
-    bool ok = world_substep(simulator->world, clock, &error);
-    world_info(simulator->world, &info);
-    tell_news(simulator, &info);
-    if (ok)
-        watch_fluid(simulator); /* before the state is shown: viewers may take the frame as finished */
-    const double led = lead(simulator, ok, &info);
-    if (ok && shows(simulator, &info)) {
+    /* Messages come before the state is shown: viewers may take the frame as finished. */
+    bool ok = run_substep(&simulator->run, clock, tell, simulator, &error);
+    const double led = lead(simulator, ok, info);
+    if (ok && shows(simulator, info)) {
         if (simulator->on_gpu)
             ok = simulator_show(simulator, &error);
         else
@@ -513,6 +468,6 @@ void simulator_frame_step(Simulator *simulator)
     simulator->frame.spent_ms += wall_ms() - began - led;
     if (!ok)
         simulator_report(simulator, true, error.message); /* before the frame's end, which would look sound */
-    if (!ok || !info.within_frame)
+    if (!ok || !info->within_frame)
         simulator_frame_end(simulator);
 }

@@ -10,7 +10,7 @@
 #include <string.h>
 #include <time.h>
 
-/* simulator_work.c: takes the waiting wish. Call with the lock held. */
+/* Takes the waiting request. Call with the lock held. */
 static void simulator_take_request(Simulator *simulator, SimulatorWork *work);
 
 /* Times are sums of decimal fractions: a frame early by this fraction is on time (app/run/session.c). */
@@ -26,13 +26,6 @@ void simulator_release(Simulator *simulator)
     pthread_mutex_unlock(&simulator->showing);
 }
 
-static double time_of(const Simulator *simulator)
-{
-    WorldInfo info;
-    world_info(simulator->world, &info);
-    return info.time;
-}
-
 static bool quits(Simulator *simulator)
 {
     pthread_mutex_lock(&simulator->lock);
@@ -44,9 +37,9 @@ static bool quits(Simulator *simulator)
 /* Steps the follower's frames up to the leader's time. A failed follower stays at its time. */
 static void catch_up(Simulator *leader, Simulator *follower)
 {
-    const double time = time_of(leader);
-    while (follower->world && !follower->status.failed && !quits(leader) &&
-           time_of(follower) < time - ROUNDING * follower->scene.world.dt) {
+    const double time = leader->run.info.time;
+    while (follower->run.world && !follower->status.failed && !quits(leader) &&
+           follower->run.info.time < time - ROUNDING * follower->run.scene.world.dt) {
         simulator_frame_begin(follower);
         while (follower->frame.begun)
             simulator_frame_step(follower);
@@ -62,7 +55,7 @@ void simulator_lead(Simulator *simulator)
 static void publish(Simulator *simulator)
 {
     Error error = {{0}};
-    if (simulator->world && !simulator_publish(simulator, &error))
+    if (simulator->run.world && !simulator_publish(simulator, &error))
         simulator_report(simulator, true, error.message);
 }
 
@@ -92,12 +85,11 @@ static void show_begin(Simulator *simulator)
         simulator->wake();
 }
 
-/* simulator_lead.c: steps for the followers when the leader begins, restarts or has travelled; after a frame,
-   before its state is shown. */
+/* Steps for the followers when the leader begins, restarts or has travelled. */
 static void simulator_lead_begin(Simulator *simulator)
 {
     for (int i = 0; i < simulator->follower_count; i++)
-        if (!simulator->followers[i]->world && !simulator->followers[i]->status.failed)
+        if (!simulator->followers[i]->run.world && !simulator->followers[i]->status.failed)
             simulator_make_world(simulator->followers[i]);
     show_begin(simulator);
 }
@@ -118,8 +110,8 @@ static void simulator_lead_restart(Simulator *simulator)
 static void tell_kept(Simulator *follower, double time)
 {
     char words[128];
-    const double now = time_of(follower);
-    if (follower->reported_kept || !follower->history || now <= time + follower->scene.world.dt)
+    const double now = follower->run.info.time;
+    if (follower->reported_kept || !follower->history || now <= time + follower->run.scene.world.dt)
         return;
     follower->reported_kept = true;
     snprintf(words, sizeof words,
@@ -130,14 +122,14 @@ static void tell_kept(Simulator *follower, double time)
 static void simulator_lead_travel(Simulator *simulator)
 {
     Error error = {{0}};
-    if (simulator->follower_count == 0 || !simulator->world || !simulator->history ||
+    if (simulator->follower_count == 0 || !simulator->run.world || !simulator->history ||
         simulator->recording_lost)
         return; /* the leader has not travelled either */
     for (int i = 0; i < simulator->follower_count; i++) {
         Simulator *follower = simulator->followers[i];
-        if (!follower->world)
+        if (!follower->run.world)
             continue;
-        const double time = time_of(simulator);
+        const double time = simulator->run.info.time;
         pthread_mutex_lock(&follower->lock);
         follower->request = (TravelRequest){.pending = true, .after = true, .time = time};
         simulator_take_request(follower, follower->work);
@@ -203,7 +195,7 @@ static void take_save(Simulator *simulator, SimulatorWork *work)
 static void simulator_take_request(Simulator *simulator, SimulatorWork *work)
 {
     command_queue_drop_hand(&simulator->queue);
-    work->travel = simulator->status.past.travelling = true;
+    work->travel = simulator->status.timeline.travelling = true;
     work->request = simulator->request;
     work->commands.count = 0;
     if (!simulator->status.failed) {
@@ -272,7 +264,7 @@ static void do_work(Simulator *simulator, SimulatorWork *work)
 
 static void begin(Simulator *simulator)
 {
-    if (!simulator->world && !simulator->status.failed)
+    if (!simulator->run.world && !simulator->status.failed)
         simulator_make_world(simulator);
     simulator_lead_begin(simulator);
     pthread_mutex_lock(&simulator->lock);
@@ -310,7 +302,7 @@ static bool start_thread(Simulator *simulator)
 /* Starts the thread, or the world on this thread. */
 static bool start(Simulator *simulator, Error *error)
 {
-    simulator->here = simulator->on_gpu = world_on_gpu(&simulator->scene.world);
+    simulator->here = simulator->on_gpu = world_on_gpu(&simulator->run.scene.world);
     for (int i = 0; i < simulator->follower_count; i++)
         simulator->here |= simulator->followers[i]->on_gpu;
     simulator->ended = simulator->quit = false;
@@ -324,8 +316,8 @@ static bool start(Simulator *simulator, Error *error)
 
 static void release(Simulator *simulator)
 {
-    simulator_probes_end(simulator);
-    world_destroy(simulator->world);
+    run_close_probes(&simulator->run);
+    world_destroy(simulator->run.world);
     history_destroy(simulator->history);
     free(simulator->work);
     recording_destroy(&simulator->recording);
@@ -344,7 +336,7 @@ Simulator *simulator_create(const SimulatorSetup *setup, Error *error)
         error_set(error, "no memory for the simulation");
         return NULL;
     }
-    simulator->start = simulator->scene = *setup->scene;
+    simulator->start = simulator->run.scene = *setup->scene;
     if (setup->script)
         simulator->script = *setup->script;
     simulator->upload = setup->upload;
@@ -452,7 +444,7 @@ double simulator_work(Simulator *simulator, double budget_ms)
 static void start_with(Simulator *simulator, const char *setting, Error *error)
 {
     simulator->status.failed = false;
-    const bool set = scene_set_live(&simulator->scene, setting, NULL, error);
+    const bool set = scene_set_live(&simulator->run.scene, setting, NULL, error);
     pthread_mutex_lock(&simulator->lock);
     if (set && !recording_set(&simulator->recording, setting))
         simulator->recording_lost = true;
@@ -462,27 +454,25 @@ static void start_with(Simulator *simulator, const char *setting, Error *error)
 bool simulator_move(Simulator *simulator, const SimCommand *command, Upload *upload, char backend[NAME_SIZE],
                     Error *error)
 {
-    WorldInfo info;
     char before[NAME_SIZE];
     SimCommand now = *command;
     if (!end(simulator, MOVE_MS, false))
         return error_set(error, "the simulation does not answer; try again in a moment");
     simulator->upload = upload;
-    if (!simulator->world) {
+    if (!simulator->run.world) {
         start_with(simulator, command->setting, error);
     } else {
-        world_info(simulator->world, &info);
-        now.step = info.step;
-        snprintf(before, sizeof before, "%s", simulator->scene.world.backend);
+        now.step = simulator->run.info.step;
+        snprintf(before, sizeof before, "%s", simulator->run.scene.world.backend);
         simulator_cut_for(simulator, &now, 1);
         simulator_apply(simulator, &now);
-        simulator->on_gpu = world_on_gpu(&simulator->scene.world);
-        if (strcmp(before, simulator->scene.world.backend) != 0) { /* no way back from there */
+        simulator->on_gpu = world_on_gpu(&simulator->run.scene.world);
+        if (strcmp(before, simulator->run.scene.world.backend) != 0) { /* no way back from there */
             simulator_history_begin(simulator);
             simulator_history_keep(simulator);
         }
         simulator_publish(simulator, error);
     }
-    snprintf(backend, NAME_SIZE, "%s", simulator->scene.world.backend);
+    snprintf(backend, NAME_SIZE, "%s", simulator->run.scene.world.backend);
     return start(simulator, error);
 }

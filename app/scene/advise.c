@@ -1,17 +1,14 @@
 #include "app/scene/scene.h"
 
-#include "app/scene/keys.h"
 #include "app/scene/scene_private.h"
 #include "render/frame/view.h"
 #include "sim/def/fluids.h"
-#include "sim/solids/bodies.h"
-#include "sim/start/fill.h"
-#include "sim/start/rest.h"
-#include "sim/start/seed.h"
+#include "sim/solids/solid.h"
+#include "sim/start/start.h"
 #include "sim/step/backend.h"
-#include "sim/step/energy_unwatched.h"
+#include "sim/step/constants.h"
 #include "sim/step/method.h"
-#include "sim/step/step_control.h"
+#include "sim/step/world.h"
 #include "slosh/def.h"
 #include "slosh/error.h"
 
@@ -21,33 +18,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-bool notes_have(const Notes *notes, const char *line)
-{
-    for (int i = 0; i < notes->count; i++)
-        if (strcmp(notes->line[i], line) == 0)
-            return true;
-    return false;
-}
-
-void notes_add(Notes *notes, const char *format, ...)
-{
-    char line[NOTE_SIZE];
-    va_list arguments;
-    if (!notes)
-        return;
-    va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    text_tame(line);
-    if (notes_have(notes, line))
-        return;
-    if (notes->count < NOTES_MAX)
-        memcpy(notes->line[notes->count++], line, sizeof line);
-    else
-        snprintf(notes->line[NOTES_MAX - 1], NOTE_SIZE,
-                 "there is more to say of this scene; mend the above first");
-}
 
 void notes_print(const Notes *notes, FILE *file)
 {
@@ -83,32 +53,33 @@ static void advise_slip(const YamlTree *tree, const Scene *scene, Notes *notes)
 }
 
 /* Context of the method's advice. */
-typedef struct Asked {
+typedef struct AdviceContext {
     const YamlTree *tree;
     const Scene *scene;
     Notes *notes;
-} Asked;
+} AdviceContext;
 
 static void say(void *to, const char *key, const char *what)
 {
-    const Asked *asked = to;
+    const AdviceContext *asked = to;
     advise(asked->tree, key, asked->notes, "%s", what);
 }
 
 static bool chosen(void *to, const char *key)
 {
-    const Asked *asked = to;
+    const AdviceContext *asked = to;
     return !solver_preset_filled(asked->scene, key);
 }
 
 static void advise_method(const YamlTree *tree, const Scene *scene, Notes *notes)
 {
-    const WorldDef def = world_def_most_viscous(&scene->world);
-    const Method *method = method_find(def.method);
-    const StepFriction friction = step_friction(&def);
-    Asked asked = {tree, scene, notes};
+    WorldDef space;
+    const WorldDef *def = world_def_most_viscous(&scene->world, &space);
+    const Method *method = method_find(def->method);
+    const StepFriction friction = step_friction(def);
+    AdviceContext asked = {tree, scene, notes};
     if (method->advise)
-        method->advise(&(MethodAdvice){&def, &friction, &asked, say, chosen});
+        method->advise(&(MethodAdvice){def, &friction, &asked, say, chosen});
 }
 
 static void advise_energy(const YamlTree *tree, const Scene *scene, Notes *notes)
@@ -427,7 +398,7 @@ static void advise_force(const YamlTree *tree, int index, const WorldDef *world,
     const Backend *backend = backend_find(world->backend);
     char path[64];
     snprintf(path, sizeof path, "probes[%d].force", index);
-    if (backend && !backend->feel)
+    if (backend && !backend->enable_forces)
         advise(tree, path, notes,
                "backend %s sums no forces, so that it has no number; use backend cpu or compute",
                world->backend);
@@ -458,22 +429,6 @@ typedef void SceneAdvice(const YamlTree *tree, const Scene *scene, Notes *notes)
 static SceneAdvice *const advices[] = {advise_fills,  advise_step,   advise_places,   advise_method,
                                        advise_sound,  advise_borne,  advise_cohesion, advise_slip,
                                        advise_probes, advise_solids, advise_energy,   NULL};
-
-void advise(const YamlTree *tree, const char *path, Notes *notes, const char *format, ...)
-{
-    char what[NOTE_SIZE];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(what, sizeof what, format, arguments);
-    va_end(arguments);
-    const YamlNode *node = tree ? tree_nearest(tree, path) : NULL;
-    if (node && node->said)
-        notes_add(notes, "%.100s%s: %s", node->said, strlen(node->said) > 100 ? "..." : "", what);
-    else if (node && tree_at(tree, path))
-        notes_add(notes, "%s:%d:%d: %s", tree->path, node->key_line, node->key_column, what);
-    else
-        notes_add(notes, "%s%s%s: %s", tree ? tree->path : "", tree ? ": " : "", path, what);
-}
 
 enum { NEED_SIZE = 128 };
 

@@ -5,67 +5,12 @@
 #include "sim/flow/flow.h"
 #include "sim/gpu/particle_buffers.h"
 #include "sim/solids/solid.h"
-#include "sim/start/fill.h"
-#include "sim/start/seed.h"
+#include "sim/start/start.h"
 #include "slosh/state.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-char scene_axis_name(int k)
-{
-    return "xyz"[k];
-}
-
-bool scene_between_walls(const SceneCheck *check, const char *path, int k, double low, double high)
-{
-    const double size = check->scene->world.box_size[k];
-    const double wall_low = k == 1 ? 0 : -0.5 * size, wall_high = wall_low + size, slack = 1e-9 * size;
-    if (low >= wall_low - slack && high <= wall_high + slack)
-        return true;
-    return FAIL(check, path,
-                "the fluid is outside the box: it reaches from %g to %g m in %c; the box from %g to %g m",
-                low, high, scene_axis_name(k), wall_low, wall_high);
-}
-
-bool scene_check_axis(const SceneCheck *check, const char *path, const double axis[3])
-{
-    return hypot(hypot(axis[0], axis[1]), axis[2]) >= 1e-9 ||
-           FAIL(check, path, "the axis has no direction; write one such as [1, 0, 0]");
-}
-
-bool scene_check_plane(const SceneCheck *check, const char *path, const double v[3])
-{
-    return check->scene->world.dimensions == 3 || v[2] == 0 ||
-           FAIL(check, path, "the third number must be 0, or left out, in a 2D scene, not %g", v[2]);
-}
-
-double scene_clamp_to_box(const SceneCheck *check, int k, double x)
-{
-    const double size = check->scene->world.box_size[k], low = k == 1 ? 0 : -0.5 * size;
-    return fmin(fmax(x, low), low + size);
-}
-
-double scene_outside_box(const SceneCheck *check, const double x[3])
-{
-    double d2 = 0;
-    for (int k = 0; k < check->scene->world.dimensions; k++)
-        d2 += pow(x[k] - scene_clamp_to_box(check, k, x[k]), 2);
-    return sqrt(d2);
-}
-
-bool scene_check_motion(const SceneCheck *check, const char *list, int m, const Motion *motion)
-{
-    char path[96];
-    snprintf(path, sizeof path, "%s[%d].%s.axis", list, m, motion_name(motion->kind));
-    if (!scene_check_axis(check, path, motion->axis))
-        return false;
-    if (check->scene->world.dimensions == 2 && !motion_in_plane(motion))
-        return FAIL(check, path,
-                    "the motion leaves the plane of a 2D scene; shake along x and y, turn about [0, 0, 1]");
-    return true;
-}
 
 /* Checks periodic sides: wide enough, no turns of the box, no solids across. */
 static bool scene_check_periodic(const SceneCheck *check)
@@ -408,10 +353,10 @@ static bool check_source(const SceneCheck *check, const char *path, const ViewDe
 {
     char key[64];
     snprintf(key, sizeof key, "%s.set", path);
-    if (*view->file && *view->set)
+    if (view->file && view->set)
         return FAIL(check, key,
                     "%s has `file` and `set`, a recorded run and what is simulated; leave one out", path);
-    for (const char *line = view->set; *line; line += strcspn(line, "\n"), line += *line != 0)
+    for (const char *line = text_or_empty(view->set); *line; line += strcspn(line, "\n"), line += *line != 0)
         if (strncmp(line, "view", strlen("view")) == 0)
             return FAIL(check, key, "%s: %.*s is no setting of what is simulated; write it beside `set`", key,
                         (int)strcspn(line, "="), line);
@@ -430,7 +375,7 @@ static bool check_sources(const SceneCheck *check)
     for (int i = 0; i < scene->view_count; i++) {
         char path[32];
         snprintf(path, sizeof path, "views[%d]", i);
-        files += *scene->views[i].file != 0;
+        files += scene->views[i].file != NULL;
         if (!check_source(check, path, &scene->views[i]))
             return false;
     }
@@ -483,24 +428,88 @@ static bool check_spacing(const SceneCheck *check)
     return true;
 }
 
+static bool check_fluids(const SceneCheck *check)
+{
+    for (int f = 0; f < check->scene->world.fluid_count; f++)
+        if (!scene_check_fluid(check, f))
+            return false;
+    return true;
+}
+
+static bool check_drains(const SceneCheck *check)
+{
+    for (int k = 0; k < check->scene->world.drain_count; k++)
+        if (!scene_check_drain(check, k))
+            return false;
+    return true;
+}
+
+static bool check_motions(const SceneCheck *check)
+{
+    for (int m = 0; m < check->scene->world.motion_count; m++)
+        if (!scene_check_motion(check, "motion", m, &check->scene->world.motions[m]))
+            return false;
+    return true;
+}
+
+static bool check_solids(const SceneCheck *check)
+{
+    for (int k = 0; k < check->scene->world.solid_count; k++)
+        if (!scene_check_solid(check, k))
+            return false;
+    return true;
+}
+
+static bool check_probes(const SceneCheck *check)
+{
+    for (int k = 0; k < check->scene->probes.count; k++)
+        if (!scene_check_probe(check, k))
+            return false;
+    return true;
+}
+
+static bool check_gravity(const SceneCheck *check)
+{
+    return scene_check_plane(check, "gravity", check->scene->world.gravity);
+}
+
+/* The rules of a scene, each with the first parts of the paths of all read keys. */
+static const struct {
+    const char *reads;
+    bool (*holds)(const SceneCheck *check);
+} rules[] = {
+    {" fluids box solids ", check_fluids},
+    {" drains box ", check_drains},
+    {" motion box ", check_motions},
+    {" solids box ", check_solids},
+    {" probes box solids particles ", check_probes},
+    {" gravity box ", check_gravity},
+    {" particles box ", check_spacing},
+    {" box ", scene_check_lid},
+    {" metrics probes ", scene_check_metrics},
+    {" view views solver ", check_views},
+};
+enum { RULES = sizeof rules / sizeof *rules };
+
 bool scene_check(const YamlTree *tree, const Scene *scene, Error *error)
 {
     const SceneCheck check = {tree, scene, error};
-    for (int f = 0; f < scene->world.fluid_count; f++)
-        if (!scene_check_fluid(&check, f))
+    for (int i = 0; i < RULES; i++)
+        if (!rules[i].holds(&check))
             return false;
-    for (int k = 0; k < scene->world.drain_count; k++)
-        if (!scene_check_drain(&check, k))
+    return true;
+}
+
+bool scene_check_key(const Scene *scene, const char *path)
+{
+    YamlNode root = {.kind = NODE_MAPPING};
+    const YamlTree tree = {.path = "", .root = &root};
+    char part[64];
+    Error error;
+    const SceneCheck check = {&tree, scene, &error};
+    snprintf(part, sizeof part, " %.*s ", (int)strcspn(path, ".["), path);
+    for (int i = 0; i < RULES; i++)
+        if (strstr(rules[i].reads, part) && !rules[i].holds(&check))
             return false;
-    for (int m = 0; m < scene->world.motion_count; m++)
-        if (!scene_check_motion(&check, "motion", m, &scene->world.motions[m]))
-            return false;
-    for (int k = 0; k < scene->world.solid_count; k++)
-        if (!scene_check_solid(&check, k))
-            return false;
-    for (int k = 0; k < scene->probes.count; k++)
-        if (!scene_check_probe(&check, k))
-            return false;
-    return scene_check_plane(&check, "gravity", scene->world.gravity) && check_spacing(&check) &&
-           scene_check_lid(&check) && scene_check_metrics(&check) && check_views(&check);
+    return true;
 }

@@ -1,14 +1,71 @@
-#include "app/run/measure/metric.h"
-#include "app/run/measure/probe.h"
-#include "app/scene/scene_files.h"
+#include "app/scene/scene.h"
+
+#include "app/run/measure/measure.h"
 #include "app/scene/scene_private.h"
 #include "sim/mesh/mesh_shape.h"
 #include "sim/solids/solid.h"
-#include "sim/start/fill.h"
+#include "sim/start/start.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+char scene_axis_name(int k)
+{
+    return "xyz"[k];
+}
+
+/* True if low..high on axis k lies between the walls, up to rounding. */
+static bool scene_between_walls(const SceneCheck *check, const char *path, int k, double low, double high)
+{
+    const double size = check->scene->world.box_size[k];
+    const double wall_low = k == 1 ? 0 : -0.5 * size, wall_high = wall_low + size, slack = 1e-9 * size;
+    if (low >= wall_low - slack && high <= wall_high + slack)
+        return true;
+    return FAIL(check, path,
+                "the fluid is outside the box: it reaches from %g to %g m in %c; the box from %g to %g m",
+                low, high, scene_axis_name(k), wall_low, wall_high);
+}
+
+static bool scene_check_axis(const SceneCheck *check, const char *path, const double axis[3])
+{
+    return hypot(hypot(axis[0], axis[1]), axis[2]) >= 1e-9 ||
+           FAIL(check, path, "the axis has no direction; write one such as [1, 0, 0]");
+}
+
+bool scene_check_plane(const SceneCheck *check, const char *path, const double v[3])
+{
+    return check->scene->world.dimensions == 3 || v[2] == 0 ||
+           FAIL(check, path, "the third number must be 0, or left out, in a 2D scene, not %g", v[2]);
+}
+
+static double scene_clamp_to_box(const SceneCheck *check, int k, double x)
+{
+    const double size = check->scene->world.box_size[k], low = k == 1 ? 0 : -0.5 * size;
+    return fmin(fmax(x, low), low + size);
+}
+
+/* Distance of the point from the box, m. */
+static double scene_outside_box(const SceneCheck *check, const double x[3])
+{
+    const int axes = check->scene->world.dimensions == 2 ? 2 : 3;
+    double d2 = 0;
+    for (int k = 0; k < axes; k++)
+        d2 += pow(x[k] - scene_clamp_to_box(check, k, x[k]), 2);
+    return sqrt(d2);
+}
+
+bool scene_check_motion(const SceneCheck *check, const char *list, int m, const Motion *motion)
+{
+    char path[96];
+    snprintf(path, sizeof path, "%s[%d].%s.axis", list, m, motion_name(motion->kind));
+    if (!scene_check_axis(check, path, motion->axis))
+        return false;
+    if (check->scene->world.dimensions == 2 && !motion_in_plane(motion))
+        return FAIL(check, path,
+                    "the motion leaves the plane of a 2D scene; shake along x and y, turn about [0, 0, 1]");
+    return true;
+}
 
 /* In two dimensions solids must lie in the plane. */
 static bool check_solid_plane(const SceneCheck *check, const SolidDef *solid, const char *path)
@@ -389,11 +446,16 @@ static bool check_plane(const SceneCheck *check, const char *path, const ProbeDe
 bool scene_check_metrics(const SceneCheck *check)
 {
     const Scene *scene = check->scene;
-    for (int m = 0; m < scene->metric_count; m++)
-        if (metric_kinds[scene->metrics[m]].numbers == 0 && scene->probes.count == 0)
+    for (int m = 0; m < scene->metric_count; m++) {
+        const bool of_probes = metric_kinds[scene->metrics[m]].numbers == 0;
+        if (of_probes && scene->probes.count == 0)
             return FAIL(check, "metrics",
                         "metrics has 'probes', and the scene names none; add `probes`, or "
                         "leave it out");
+        if (of_probes && scene->probes.count > METRIC_PROBES)
+            return FAIL(check, "metrics", "metrics has 'probes', which compares at most %d probes, not %d",
+                        METRIC_PROBES, scene->probes.count);
+    }
     return true;
 }
 

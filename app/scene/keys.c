@@ -1,6 +1,6 @@
-#include "app/scene/keys.h"
+#include "app/scene/scene.h"
 
-#include "app/run/measure/metric.h"
+#include "app/run/measure/measure.h"
 #include "app/scene/scene_private.h"
 #include "render/frame/view.h"
 #include "render/renderer.h"
@@ -112,7 +112,15 @@ int key_list_count(const Key *list, const Scene *scene)
 size_t key_list_at(const Key *list, int index)
 {
     const KeyListMapping *like = key_list_mapping(list);
+    assert(!(list->flags & KEY_POINTER));
     return list->offset + (size_t)index * list->size - (like ? like->at : 0);
+}
+
+const char *key_element(const Key *list, const void *base, int index)
+{
+    const char *field = (const char *)base + list->offset;
+    return list->flags & KEY_POINTER ? *(const char *const *)(const void *)field + (size_t)index * list->size
+                                     : (const char *)base + key_list_at(list, index);
 }
 
 const char *key_name_in(const Key *key, const char *parent)
@@ -242,8 +250,7 @@ static void add_views(void)
     static KeyOwner owners[VIEW_KINDS_MAX];
     for (int i = 0; view_at(i); i++) {
         owners[i] = (KeyOwner){.key = "view.kind", .value = view_at(i)->name};
-        add_rows(view_at(i)->keys, offsetof(Scene, view.of_view) + (size_t)i * sizeof(ViewOwnSettings),
-                 &owners[i]);
+        add_rows(view_at(i)->keys, offsetof(Scene, view.own) + view_own_offset(i), &owners[i]);
     }
 }
 
@@ -255,8 +262,7 @@ static void add_overlays(void)
     for (int i = 0; overlay_list[i]; i++) {
         snprintf(shows[i], sizeof shows[i], "view.%s.show", overlay_list[i]->name);
         owners[i] = (KeyOwner){.key = shows[i], .value = "true"};
-        add_rows(overlay_list[i]->keys,
-                 offsetof(Scene, view.of_overlay) + (size_t)i * sizeof(ViewOwnSettings), &owners[i]);
+        add_rows(overlay_list[i]->keys, offsetof(Scene, view.own) + overlay_own_offset(i), &owners[i]);
     }
 }
 
@@ -298,7 +304,7 @@ int scene_view_count(const Scene *scene)
 
 bool scene_shows(const Scene *scene, const ViewDef *view)
 {
-    return !*view->file && strcmp(view->set, scene->beside) == 0;
+    return !view->file && strcmp(text_or_empty(view->set), text_or_empty(scene->compared_set)) == 0;
 }
 
 bool scene_view_reads_acceleration(const ViewDef *view)
@@ -357,8 +363,7 @@ static int elements_of(const Scene *scene, const Key *list)
             continue;
         const char *outer = (const char *)scene;
         for (int e = 0; e < *(const int *)(const void *)(outer + keys[i].aux); e++)
-            elements +=
-                *(const int *)(const void *)(outer + keys[i].offset + (size_t)e * keys[i].size + list->aux);
+            elements += *(const int *)(const void *)(key_element(&keys[i], outer, e) + list->aux);
     }
     return elements;
 }

@@ -1,10 +1,10 @@
 /* Prints the table of keys and a scene's settings for people. */
-#include "app/scene/keys.h"
+#include "app/scene/scene.h"
+
 #include "app/scene/scene_private.h"
 #include "app/scene/yaml/yaml.h"
-#include "sim/base/color.h"
+#include "sim/base/base.h"
 #include "sim/base/key.h"
-#include "sim/base/tables.h"
 #include "slosh/def.h"
 
 #include <stddef.h>
@@ -12,145 +12,6 @@
 #include <string.h>
 
 enum { PATH_SIZE = 128 };
-
-static void print_triple(char *text, size_t size, const char *format, const double v[3])
-{
-    char part[3][32];
-    for (int k = 0; k < 3; k++)
-        snprintf(part[k], sizeof part[k], format, v[k]);
-    snprintf(text, size, "[%s, %s, %s]", part[0], part[1], part[2]);
-}
-
-static void color_text(const Key *key, const char *field, char *text, size_t size)
-{
-    double color[3];
-    for (int k = 0; k < 3; k++)
-        color[k] =
-            linear_to_srgb(key->flags & KEY_SINGLE ? ((const float *)field)[k] : ((const double *)field)[k]);
-    print_triple(text, size, "%.3g", color);
-}
-
-static void rows_text(const double *x, const double *y, int count, char *text, size_t size)
-{
-    int used = snprintf(text, size, "[");
-    for (int k = 0; k < count && used >= 0 && (size_t)used < size; k++)
-        used += snprintf(text + used, size - (size_t)used, "%s[%.9g, %.9g]%s", k ? ", " : "", x[k], y[k],
-                         k + 1 < count ? "" : "]");
-}
-
-/* Prints one number, or the rows. */
-static void curve_text(const TimeTable *table, double number, char *text, size_t size)
-{
-    if (table->rows > 0)
-        rows_text(table->time, table->value, (int)table->rows, text, size);
-    else
-        snprintf(text, size, "%.9g", number);
-}
-
-/* Prints a preset's name, or the points. */
-static void points_text(const Key *key, const ControlPoints *points, char *text, size_t size)
-{
-    for (const ControlPreset *preset = key->names; preset->name; preset++)
-        if (control_points_equal(points, &preset->points)) {
-            snprintf(text, size, "%s", preset->name);
-            return;
-        }
-    rows_text(points->x, points->y, points->count, text, size);
-}
-
-static void axes_text(const bool axes[3], char *text, size_t size)
-{
-    const char *names = "xyz";
-    int used = snprintf(text, size, "[");
-    for (int k = 0; k < 3; k++)
-        if (axes[k])
-            used += snprintf(text + used, size - (size_t)used, "%s%c", used > 1 ? ", " : "", names[k]);
-    snprintf(text + used, size - (size_t)used, "]");
-}
-
-static void names_text(const Key *key, const int *places, int count, char *text, size_t size)
-{
-    size_t used = (size_t)snprintf(text, size, "[");
-    for (int k = 0; k < count && used < size; k++)
-        used += (size_t)snprintf(text + used, size - used, "%s%s", k ? ", " : "", key_choice(key, places[k]));
-    if (used < size)
-        snprintf(text + used, size - used, "]");
-}
-
-/* Prints {"path": value, "path": value}: a path with an index needs quotes. */
-static void settings_text(const char *lines, char *text, size_t size)
-{
-    FILE *file = *lines ? fmemopen(text, size, "w") : NULL;
-    if (!file)
-        return;
-    for (const char *at = lines; *at;) {
-        const int length = (int)strcspn(at, "\n"), path = (int)strcspn(at, "=");
-        fprintf(file, "%s\"%.*s\": %.*s", at == lines ? "{" : ", ", path, at, length - path - 1,
-                at + path + 1);
-        at += length + (at[length] != 0);
-    }
-    fputc('}', file);
-    fclose(file);
-}
-
-void key_value_text(const Key *key, const void *base, char *text, size_t size)
-{
-    *text = 0;
-    if (key->type == KEY_CHOICE && key->offset == KEY_NOWHERE)
-        snprintf(text, size, "%s", key_choice(key, 0));
-    if (key->offset == KEY_NOWHERE)
-        return;
-    const char *field = (const char *)base + key->offset;
-    switch (key->type) {
-    case KEY_NUMBER:
-        snprintf(text, size, "%.9g", *(const double *)field);
-        break;
-    case KEY_CURVE:
-        curve_text((const TimeTable *)((const char *)base + key->aux), *(const double *)field, text, size);
-        break;
-    case KEY_INTEGER:
-        snprintf(text, size, "%d", *(const int *)field);
-        break;
-    case KEY_BOOLEAN:
-        snprintf(text, size, "%s", *(const bool *)field ? "true" : "false");
-        break;
-    case KEY_TEXT:
-        snprintf(text, size, "%s", field);
-        break;
-    case KEY_CHOICE:
-        snprintf(text, size, "%s", key->flags & KEY_INDEX ? key_choice(key, *(const int *)field) : field);
-        break;
-    case KEY_VEC3:
-        print_triple(text, size, "%.9g", (const double *)field);
-        break;
-    case KEY_AXES:
-        axes_text((const bool *)field, text, size);
-        break;
-    case KEY_NAMES:
-        names_text(key, (const int *)(const void *)field,
-                   *(const int *)(const void *)((const char *)base + key->aux), text, size);
-        break;
-    case KEY_COLOR:
-        color_text(key, field, text, size);
-        break;
-    case KEY_RANGE:
-        if (*((const bool *)base + key->aux))
-            snprintf(text, size, *((const bool *)base + key->aux + 1) ? "symmetric" : "auto");
-        else
-            snprintf(text, size, "[%.9g, %.9g]", ((const double *)field)[0], ((const double *)field)[1]);
-        break;
-    case KEY_POINTS:
-        points_text(key, (const ControlPoints *)(const void *)field, text, size);
-        break;
-    case KEY_SETTINGS:
-        settings_text(field, text, size);
-        break;
-    case KEY_MAPPING:
-    case KEY_VARIANT:
-    case KEY_LIST:
-        break;
-    }
-}
 
 static bool is_container(KeyType type)
 {
@@ -188,7 +49,7 @@ static void defaults_of(const Key *key, Defaults *defaults)
 
 static void print_default(const Key *key, FILE *file)
 {
-    static Defaults defaults;
+    Defaults defaults;
     char value[128] = "";
     if (key->flags & KEY_REQUIRED)
         snprintf(value, sizeof value, "required");
@@ -265,8 +126,7 @@ static void print_list(const Key *key, const PrintWalk *walk, const char *shown,
     if (like && elements > 0)
         print_elements(shown, elements, file);
     for (int e = 0; e < elements; e++) {
-        PrintWalk inner = {.base = walk->base + key->offset + (size_t)e * key->size - (like ? like->at : 0),
-                           .like = like ? walk->base : NULL};
+        PrintWalk inner = {.base = key_element(key, walk->base, e), .like = like ? walk->base : NULL};
         snprintf(inner.parent, PATH_SIZE, "%.120s%s", like ? like->mapping : key->path, like ? "" : "[]");
         snprintf(inner.shown, PATH_SIZE, "%.110s[%d]", shown, e);
         print_children(&inner, file);
@@ -396,31 +256,31 @@ void key_exact_text(const Key *key, const void *base, int dimensions, char *text
     else if (key->type == KEY_COLOR)
         exact_color(key, field, text, size);
     else if (key->type == KEY_TEXT && *text)
-        quoted(field, text, size);
+        quoted(key_text(key, field), text, size);
 }
 
 /* ---- lists ---- */
 
 /* Position of a walk through an element. */
-typedef struct Within {
+typedef struct ElementPrint {
     const char *base, *like; /* the element; a default element */
     int dimensions;
     FILE *file;
     int said; /* count of keys written in the present mapping */
-} Within;
+} ElementPrint;
 
-static void say_children(Within *within, const char *parent);
+static void say_children(ElementPrint *within, const char *parent);
 
-static void say_name(Within *within, const char *name)
+static void say_name(ElementPrint *within, const char *name)
 {
     fprintf(within->file, "%s%s: ", within->said++ > 0 ? ", " : "", name);
 }
 
-static void say_mapping(Within *within, const Key *key, const char *name)
+static void say_mapping(ElementPrint *within, const Key *key, const char *name)
 {
     char *words = NULL;
     size_t size = 0;
-    Within inner = *within;
+    ElementPrint inner = *within;
     inner.said = 0;
     inner.file = open_memstream(&words, &size);
     if (!inner.file)
@@ -433,7 +293,7 @@ static void say_mapping(Within *within, const Key *key, const char *name)
     free(words);
 }
 
-static void say_value(Within *within, const Key *key, const char *name)
+static void say_value(ElementPrint *within, const Key *key, const char *name)
 {
     char text[KEY_EXACT_SIZE], usual[KEY_EXACT_SIZE];
     key_exact_text(key, within->base, within->dimensions, text, sizeof text);
@@ -451,7 +311,7 @@ bool key_is_present(const Key *key, const char *base)
     return key->aux == KEY_NOWHERE || !*(const bool *)(base + key->aux);
 }
 
-static void say_children(Within *within, const char *parent)
+static void say_children(ElementPrint *within, const char *parent)
 {
     int count;
     const Key *keys = scene_keys(&count);
@@ -481,10 +341,8 @@ void key_exact_list(const Key *list, const void *base, int dimensions, FILE *fil
     fputc('[', file);
     for (int e = 0; e < count; e++) {
         char *usual = calloc(1, list->size);
-        Within within = {.base = (const char *)base + list->offset + (size_t)e * list->size,
-                         .like = usual,
-                         .dimensions = dimensions,
-                         .file = file};
+        ElementPrint within = {
+            .base = key_element(list, base, e), .like = usual, .dimensions = dimensions, .file = file};
         if (usual && list->init)
             list->init(usual, e);
         fputs(e > 0 ? ", {" : "{", file);

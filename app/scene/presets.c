@@ -1,5 +1,6 @@
+#include "app/scene/scene.h"
+
 #include "app/base/program.h"
-#include "app/scene/keys.h"
 #include "app/scene/scene_private.h"
 #include "app/scene/yaml/yaml.h"
 #include "sim/base/key_rows.h"
@@ -20,13 +21,16 @@ const Key preset_keys[] = {
 const SolverPreset solver_preset_list[] = {
     /* In the plane a square lattice of 2.1 to 2.8 spacings per support radius resists shear. Waves are then 3
        to 7 % too fast, and a tank shaken off its resonance has 55 to 80 % of its motion. At 3 spacings the
-       lattice hardly resists (docs/validation.md). pbf has its iterations for a whole frame, but fluid is
-       accelerated once a step: at a spacing a step a jet has 0.94 of Bernoulli's speed, at three 0.78. A
-       scene that names a step of pbf has that step. The pressure of a blow is about rho v^2, and dfsph
-       tolerates steps up to 0.25 h / sqrt(p / rho): a Courant number above 0.2 boils in hard shaking. */
+       lattice hardly resists (docs/labbook/validation.md). pbf has its iterations for a whole frame, but
+       fluid is accelerated once a step: at a spacing a step a jet has 0.94 of Bernoulli's speed, at three
+       0.78. A scene that names a step of pbf has that step. The pressure of a blow is about rho v^2, and
+       dfsph tolerates steps up to 0.25 h / sqrt(p / rho): a Courant number above 0.2 boils in hard shaking.
+       Under pressure a lattice of mueller's spiky kernel resists shear. A wave between two fluids then grows
+       by a third too slowly. A lattice of the quintic kernel hardly resists (docs/labbook/validation.md). */
     {"play",
      "the defaults: fast, at large steps",
      {{"particles.support", "3", NULL, 2, NULL},
+      {"solver.density_kernel", "quintic", "mueller", 2 + SOLVER_PRESET_SEVERAL_FLUIDS, "particles.support"},
       {"particles.support", "3.1", "dfsph", 2, NULL},
       {"particles.support", "2.1", "wcsph", 2, NULL},
       {"particles.support", "3", "wcsph", 2, "solver.kernel"},
@@ -42,21 +46,26 @@ const SolverPreset solver_preset_list[] = {
       {"solver.step.number", "0.45", "pbf", 3, NULL},
       {"solver.step.max_dt", "0.016666667", "pbf", 0, NULL},
       {"solver.step.number", "0.2", "dfsph", 0, NULL},
+      {"solver.surface_lack", "1", "dfsph", 0, NULL},
+      {"solver.rest_viscosity", "0.15", "dfsph", 0, NULL},
       {NULL, NULL, NULL, 0, NULL}}},
     /* Wendland's C2 kernel does not pair particles. Friction in the radial form also does the fluid's work at
        a free surface. Figures repeat exactly on compute too. In the plane a lattice under pressure at 3.5
        spacings hardly resists shear any more; at 2.6 spacings shear resistance makes waves 5 % too fast, at
        any resolution. In three dimensions, where 2.6 means 74 neighbours, and for mueller's spiky kernel more
-       does not pay. For dfsph in the plane more neighbours help waves and harm rest (docs/methods.md), and
-       longer steps cost more iterations than they save. Where two fluids slide along each other, particles
-       pass over each other. With Wendland's kernel particles feel the rows of the other fluid, and a wave
-       between the fluids grows by a quarter too slowly. The quintic kernel is thirty times smoother there,
-       for more time. */
+       does not pay. For dfsph in the plane more neighbours help all that moves, but not fluids of 1 : 1000
+       at rest (docs/labbook/methods.md), and longer steps cost more iterations than they save. Where two
+       fluids slide along each other, particles pass over each other. With Wendland's kernel particles feel
+       the rows of the other fluid, and a wave between the fluids grows by a quarter too slowly. The quintic
+       kernel is thirty times smoother there, for more time. */
     {"accurate",
      "wcsph as slosh validate measures it: kernel, support, diffusion, friction, step",
      {{"solver.method", "wcsph", NULL, 0, NULL},
       {"particles.support", "2.6", NULL, 0, NULL},
       {"particles.support", "3.5", "wcsph", 2, NULL},
+      {"particles.support", "3", "mueller", 2 + SOLVER_PRESET_SEVERAL_FLUIDS, "solver.density_kernel"},
+      {"solver.numerical_viscosity", "0.01", "mueller", 2 + SOLVER_PRESET_SEVERAL_FLUIDS, NULL},
+      {"solver.density_kernel", "quintic", "mueller", 2 + SOLVER_PRESET_SEVERAL_FLUIDS, "particles.support"},
       {"solver.kernel", "wendland_c2", "wcsph", 0, NULL},
       {"solver.kernel", "quintic", "wcsph", SOLVER_PRESET_SEVERAL_FLUIDS, NULL},
       {"solver.delta_sph", "0.1", "wcsph", 0, NULL},
@@ -65,7 +74,10 @@ const SolverPreset solver_preset_list[] = {
       {"solver.step.mode", "cfl", NULL, 0, NULL},
       {"solver.step.number", "0.3", NULL, 0, NULL},
       {"particles.support", "2.1", "dfsph", 3, NULL},
+      {"particles.support", "3.1", "dfsph", 2, NULL},
       {"solver.step.number", "0.15", "dfsph", 0, NULL},
+      {"solver.surface_lack", "1", "dfsph", 0, NULL},
+      {"solver.rest_viscosity", "0.15", "dfsph", 0, NULL},
       {"solver.step.mode", "fixed", "pbf", 0, NULL},
       {"solver.step.dt", "0.016666667", "pbf", 0, NULL},
       {"solver.step.substeps", "1", "pbf", 0, NULL},
@@ -83,9 +95,9 @@ static const SolverPreset *preset_find(const char *name)
 
 static bool is_meant(const SolverPresetSetting *setting, const char *method, int dimensions, size_t fluids)
 {
-    const int scenes = setting->scenes;
+    const int several = setting->scenes & SOLVER_PRESET_SEVERAL_FLUIDS, space = setting->scenes - several;
     return (!setting->method || strcmp(setting->method, method) == 0) &&
-           (scenes == 0 || scenes == dimensions || (scenes == SOLVER_PRESET_SEVERAL_FLUIDS && fluids > 1));
+           (space == 0 || space == dimensions) && (!several || fluids > 1);
 }
 
 static bool fill_in(const YamlTree *tree, const SolverPresetSetting *setting, Scene *scene, Error *error)
@@ -192,14 +204,14 @@ const Preset preset_list[] = {
     {.name = "fast",
      .kind = PRESET_QUESTION,
      .help = "large steps at little cost: pbf with the defaults, a step a frame",
-     .source = "docs/performance.md",
+     .source = "docs/labbook/performance.md",
      .set = {"solver.method=pbf", "solver.preset=play"},
      .drops = {"solver.step.mode", "solver.step.dt", "solver.step.substeps", "solver.step.number",
                "solver.step.max_dt", "solver.sound_speed", "particles.support", "solver.reproducible"}},
     {.name = "accurate",
      .kind = PRESET_QUESTION,
      .help = "the settings that slosh validate measures: wcsph",
-     .source = "docs/validation.md",
+     .source = "docs/labbook/validation.md",
      .set = {"solver.method=wcsph", "solver.preset=accurate"},
      .drops = {"solver.step.mode", "solver.step.dt", "solver.step.substeps", "solver.step.number",
                "solver.step.max_dt", "solver.sound_speed", "particles.support", "solver.kernel",

@@ -1,12 +1,10 @@
 #include "app/scene/scene.h"
 
-#include "app/scene/keys.h"
 #include "app/scene/scene_private.h"
 #include "sim/def/fluids.h"
-#include "sim/start/fill.h"
-#include "sim/start/seed.h"
+#include "sim/start/start.h"
+#include "sim/step/constants.h"
 #include "sim/step/method.h"
-#include "sim/step/step_control.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,12 +14,12 @@
    the volume. */
 enum { TRIES = 96 };
 
-typedef struct Best {
+typedef struct SpacingSearch {
     double spacing;
     size_t count;
     double cost; /* relative error of the count, plus a penalty for an uneven lattice */
     double last; /* last counted spacing */
-} Best;
+} SpacingSearch;
 
 /* The width of a cube, or a square, of the volume. */
 static double root(const Scene *scene, double volume)
@@ -29,7 +27,7 @@ static double root(const Scene *scene, double volume)
     return scene->world.dimensions == 3 ? cbrt(volume) : sqrt(volume);
 }
 
-static void offer(const Scene *scene, size_t wanted, double spacing, Best *best)
+static void offer(const Scene *scene, size_t wanted, double spacing, SpacingSearch *best)
 {
     WorldDef world = scene->world;
     double uneven;
@@ -44,7 +42,7 @@ static void offer(const Scene *scene, size_t wanted, double spacing, Best *best)
     const double cost = fabs((double)count - (double)wanted) / (double)wanted + least;
     best->last = own;
     if (best->spacing <= 0 || cost < best->cost)
-        *best = (Best){own, count, cost, own};
+        *best = (SpacingSearch){own, count, cost, own};
 }
 
 /* More particles mean smaller jumps, and slower counts. */
@@ -53,9 +51,9 @@ static int tries_for(size_t wanted)
     return wanted > 4000000 ? 4 : wanted > 400000 ? 24 : TRIES;
 }
 
-static Best nearest_spacing(const Scene *scene, size_t wanted, double guess)
+static SpacingSearch nearest_spacing(const Scene *scene, size_t wanted, double guess)
 {
-    Best best = {0};
+    SpacingSearch best = {0};
     for (int round = 0; round < 2; round++) { /* overlapping fills hold less than the sum of their volumes */
         offer(scene, wanted, guess, &best);
         guess = best.spacing * root(scene, fmax(1, (double)best.count) / (double)wanted);
@@ -87,8 +85,8 @@ static double *step_chosen(Scene *scene, const char **key, double *scale)
 }
 
 /* Sets the spacing, and scales the step, unless chosen on the command line. */
-static void step_follow(const YamlTree *tree, Scene *scene, const SceneSettings *settings, const Best *best,
-                        Notes *notes)
+static void step_follow(const YamlTree *tree, Scene *scene, const SceneSettings *settings,
+                        const SpacingSearch *best, Notes *notes)
 {
     char with[160] = "";
     const char *key;
@@ -126,7 +124,7 @@ static bool set_poured(const YamlTree *tree, Scene *scene, const SceneSettings *
 {
     const size_t wanted = settings->particles;
     const double volume = poured_volume(&scene->world);
-    const Best best = {.spacing = root(scene, volume / (double)wanted), .count = wanted};
+    const SpacingSearch best = {.spacing = root(scene, volume / (double)wanted), .count = wanted};
     if (volume <= 0)
         return error_set(error,
                          "--particles %zu: the scene fills nothing at the start, and its emitters have no "
@@ -154,7 +152,7 @@ bool scene_choose_spacing(const YamlTree *tree, Scene *scene, const SceneSetting
     if (!(guess > 1e-6) || !scene_fits_memory((double)wanted) ||
         !scene_check_bounds(tree, scene, 0.9 * guess, NULL))
         return error_set(error, "--particles %zu: more than this machine can hold; use fewer", wanted);
-    const Best best = nearest_spacing(scene, wanted, guess);
+    const SpacingSearch best = nearest_spacing(scene, wanted, guess);
     if (best.count == 0 || best.spacing > greatest_spacing(scene))
         return error_set(error, "--particles %zu: too few to fill this scene; use more", wanted);
 
@@ -162,7 +160,7 @@ bool scene_choose_spacing(const YamlTree *tree, Scene *scene, const SceneSetting
     return true;
 }
 
-/* Checks the step against friction, sound and tension, by sim/step/step_control.h. */
+/* Checks the step against friction, sound and tension, by sim/step/constants.h. */
 
 /* Writes the setting whose friction limits the step, as key and value. */
 static void name_friction(const WorldDef *most, const StepFriction *friction, char name[64])
@@ -203,30 +201,30 @@ static void advise_viscous(const YamlTree *tree, const WorldDef *def, const Step
 
 void advise_step(const YamlTree *tree, const Scene *scene, Notes *notes)
 {
-    const WorldDef def = world_def_most_viscous(&scene->world);
-    const StepFriction friction = step_friction(&def);
-    const double step = def.dt / def.substeps, crossing = def.support * def.spacing / step_sound(&def);
-    if (def.step_mode == STEP_FIXED && step > STEP_SOUND_STANDS * crossing)
+    WorldDef space;
+    const WorldDef *def = world_def_most_viscous(&scene->world, &space);
+    const StepFriction friction = step_friction(def);
+    const double step = def->dt / def->substeps, crossing = def->support * def->spacing / step_sound(def);
+    if (def->step_mode == STEP_FIXED && step > STEP_SOUND_STANDS * crossing)
         advise(
             tree, "solver.step.dt", notes,
             "the step of %.3g ms is too long for sound at %g m/s, which crosses a support radius in %.3g ms: "
             "use %g substeps or more, or a lower solver.sound_speed",
-            1e3 * step, step_sound(&def), 1e3 * crossing, substeps_for(&def, STEP_SOUND_CALM * crossing));
-    else if (def.step_mode == STEP_FIXED && step > step_pressure(&def) * (1 + 1e-9))
+            1e3 * step, step_sound(def), 1e3 * crossing, substeps_for(def, step_sound_calm(def) * crossing));
+    else if (def->step_mode == STEP_FIXED && step > step_pressure(def) * (1 + 1e-9))
         advise(
             tree, "solver.step.dt", notes,
             "the step of %.3g ms is too long for the pressure of fluid that is %.3g m deep: from %.3g ms on it "
             "boils; use %g substeps or more",
-            1e3 * step, greatest_fall(&def), 1e3 * step_pressure(&def),
-            substeps_for(&def, step_pressure(&def)));
-    else if (def.step_mode == STEP_FIXED && step > step_tension(&def) * (1 + 1e-9))
+            1e3 * step, greatest_fall(def), 1e3 * step_pressure(def), substeps_for(def, step_pressure(def)));
+    else if (def->step_mode == STEP_FIXED && step > step_tension(def) * (1 + 1e-9))
         advise(
             tree, "solver.step.dt", notes,
             "the step of %.3g ms is too long for surface tension, whose shortest waves stand %.3g ms: drops boil; use "
             "%g substeps or more",
-            1e3 * step, 1e3 * step_tension(&def), substeps_for(&def, step_tension(&def)));
-    else if (def.step_mode == STEP_FIXED)
-        advise_viscous(tree, &def, &friction, notes);
+            1e3 * step, 1e3 * step_tension(def), substeps_for(def, step_tension(def)));
+    else if (def->step_mode == STEP_FIXED)
+        advise_viscous(tree, def, &friction, notes);
 }
 
 static double greatest_of_table(const FieldTable *table)
@@ -383,7 +381,7 @@ void advise_sound(const YamlTree *tree, const Scene *scene, Notes *notes)
    value stays if at least half and at most twice as large. */
 static const double SOUND = 7, SOUND_LEAST = 3.5, SOUND_MOST = 14;
 
-/* h over the greatest speed, for methods without sound: docs/methods.md. */
+/* h over the greatest speed, for methods without sound: docs/labbook/methods.md. */
 static const double COURANT = 0.2;
 
 /* The first preset holds the defaults: its values follow the scene too. */
@@ -430,7 +428,7 @@ static double longest_step(const WorldDef *def, const char **what)
         double step;
         const char *what;
     } limits[] = {
-        {step_sound(def) > 0 ? STEP_SOUND_CALM * h / step_sound(def) : (double)INFINITY, "sound"},
+        {step_sound(def) > 0 ? step_sound_calm(def) * h / step_sound(def) : (double)INFINITY, "sound"},
         {method->leaps ? (double)INFINITY : STEP_VISCOUS_STANDS * step_viscous(def, &friction), "friction"},
         {step_pressure(def), "pressure"},
         {step_tension(def), "surface tension"},
@@ -449,12 +447,13 @@ static double longest_step(const WorldDef *def, const char **what)
 static void fit_substeps(const YamlTree *tree, Scene *scene, Notes *notes)
 {
     enum { MOST = 10000 };
-    const WorldDef def = world_def_most_viscous(&scene->world);
+    WorldDef space;
+    const WorldDef *def = world_def_most_viscous(&scene->world, &space);
     const char *what = "";
-    if (def.step_mode != STEP_FIXED || step_is_named(tree, scene))
+    if (def->step_mode != STEP_FIXED || step_is_named(tree, scene))
         return;
-    const double substeps = ceil(def.dt / longest_step(&def, &what) * (1 - 1e-9));
-    if (substeps <= def.substeps)
+    const double substeps = ceil(def->dt / longest_step(def, &what) * (1 - 1e-9));
+    if (substeps <= def->substeps)
         return;
     scene->world.substeps = (int)fmin(substeps, MOST);
     advise(tree, "solver.step.substeps", notes,

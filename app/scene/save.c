@@ -1,11 +1,10 @@
 #define _GNU_SOURCE /* asprintf */
-#include "app/scene/save.h"
+#include "app/scene/scene.h"
 
-#include "app/base/output.h"
-#include "app/scene/keys.h"
-#include "app/scene/scene_files.h"
+#include "app/base/file.h"
 #include "app/scene/scene_private.h"
 #include "app/scene/yaml/yaml.h"
+#include "sim/base/base.h"
 #include "sim/flow/flow.h"
 
 #include <errno.h>
@@ -35,31 +34,61 @@ static void turn(SolidDef *solid, const double by[4])
         quat_multiply(by, rest, rest);
         axis_of(rest, solid->axis, &solid->angle_deg);
     }
-    for (int i = 0; i < solid->motion_count; i++) /* rotations only: translations stay */
-        if (!motion_translates(&solid->motions[i]))
-            quat_rotate(by, solid->motions[i].axis, solid->motions[i].axis);
 }
 
-static void settle(SolidDef *solid)
+/* Turns the axes of the rotations; translations stay. Returns false if memory is short. */
+static bool turn_motions(SolidDef *solid, const double by[4])
 {
-    const SolidHand *hand = &solid->hand;
+    const size_t size = (size_t)solid->motion_count * sizeof *solid->motions;
+    Motion *motions = bytes_copy(solid->motions, size);
+    for (int i = 0; motions && i < solid->motion_count; i++)
+        if (!motion_translates(&motions[i]))
+            quat_rotate(by, motions[i].axis, motions[i].axis);
+    solid->motions = bytes_give(motions, size);
+    return solid->motions || size == 0;
+}
+
+static bool settle(SolidDef *solid)
+{
+    const SolidHand hand = solid->hand;
     for (int k = 0; k < 3; k++)
-        solid->centre[k] += hand->at[k];
-    if (hand->turn[0] != 0 || hand->turn[1] != 0 || hand->turn[2] != 0)
-        turn(solid, hand->turn);
+        solid->centre[k] += hand.at[k];
     solid->hand = (SolidHand){.moved = false};
+    if (hand.turn[0] == 0 && hand.turn[1] == 0 && hand.turn[2] == 0)
+        return true;
+    turn(solid, hand.turn);
+    return turn_motions(solid, hand.turn);
 }
 
-void world_def_apply_moves(WorldDef *def, uint64_t shut)
+static bool close_emitters(FluidDef *fluid, int f, uint64_t closed_gates)
 {
+    const size_t size = (size_t)fluid->emit_count * sizeof *fluid->emits;
+    Emit *emits = bytes_copy(fluid->emits, size);
+    for (int i = 0; emits && i < fluid->emit_count; i++)
+        emits[i].closed = gate_is_closed(closed_gates, gate_of_emitter(f, i));
+    fluid->emits = bytes_give(emits, size);
+    return fluid->emits || size == 0;
+}
+
+static bool close_drains(WorldDef *def, uint64_t closed_gates)
+{
+    const size_t size = (size_t)def->drain_count * sizeof *def->drains;
+    Fill *drains = bytes_copy(def->drains, size);
+    for (int k = 0; drains && k < def->drain_count; k++)
+        drains[k].closed = gate_is_closed(closed_gates, gate_of_drain(k));
+    def->drains = bytes_give(drains, size);
+    return def->drains || size == 0;
+}
+
+bool world_def_apply_moves(WorldDef *def, uint64_t closed_gates, Error *error)
+{
+    bool enough = close_drains(def, closed_gates);
     for (int i = 0; i < def->solid_count; i++)
         if (def->solids[i].hand.moved)
-            settle(&def->solids[i]);
+            enough &= settle(&def->solids[i]);
     for (int f = 0; f < def->fluid_count; f++)
-        for (int i = 0; i < def->fluids[f].emit_count; i++)
-            def->fluids[f].emits[i].shut = gate_shut(shut, gate_of_emitter(f, i));
-    for (int k = 0; k < def->drain_count; k++)
-        def->drains[k].shut = gate_shut(shut, gate_of_drain(k));
+        enough &= close_emitters(&def->fluids[f], f, closed_gates);
+    return enough || error_set(error, "no memory for the lists of a scene");
 }
 
 static bool same_path(const char *a, const char *b)
@@ -218,10 +247,9 @@ static void walk_element(const Key *list, const DifferenceWalk *walk, const char
                          int dimensions)
 {
     const KeyListMapping *like = key_list_mapping(list);
-    const size_t at = list->offset + (size_t)e * list->size - (like ? like->at : 0);
-    DifferenceWalk inner = {.now = walk->now + at, .out = walk->out, .before = walk->before};
+    DifferenceWalk inner = {.now = key_element(list, walk->now, e), .out = walk->out, .before = walk->before};
     if (e < before)
-        inner.before = walk->before + at;
+        inner.before = key_element(list, walk->before, e);
     snprintf(inner.parent, PATH, "%.120s%s", like ? like->mapping : list->path, like ? "" : "[]");
     snprintf(inner.shown, PATH, "%.110s[%d]", shown, e);
     walk_children(&inner, dimensions);
@@ -241,10 +269,9 @@ static bool same_kinds(const Key *list, const DifferenceWalk *walk, int elements
     bool same = true;
     snprintf(parent, sizeof parent, "%.120s[]", list->path);
     for (int i = 0; i < count; i++)
-        for (int e = 0; e < elements && keys[i].type == KEY_VARIANT && key_name_in(&keys[i], parent); e++) {
-            const size_t at = list->offset + (size_t)e * list->size;
-            same &= is_absent(&keys[i], walk->before + at) == is_absent(&keys[i], walk->now + at);
-        }
+        for (int e = 0; e < elements && keys[i].type == KEY_VARIANT && key_name_in(&keys[i], parent); e++)
+            same &= is_absent(&keys[i], key_element(list, walk->before, e)) ==
+                    is_absent(&keys[i], key_element(list, walk->now, e));
     return same;
 }
 

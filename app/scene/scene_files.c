@@ -1,4 +1,3 @@
-#include "app/scene/scene_files.h"
 #include "app/scene/scene.h"
 
 #include "app/base/file.h"
@@ -6,6 +5,7 @@
 #include "app/scene/scene_private.h"
 #include "app/scene/yaml/yaml.h"
 #include "render/frame/view.h"
+#include "sim/base/base.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -17,20 +17,20 @@
 #include <unistd.h>
 
 /* A table with its source bytes. */
-typedef struct KeptTable {
-    struct KeptTable *next;
+typedef struct LoadedTable {
+    struct LoadedTable *next;
     const FieldFileKind *kind;
     char *bytes;
     size_t size;
     FieldTable *table;
-} KeptTable;
+} LoadedTable;
 
 /* Not locked: scenes are read on the main thread. */
-static KeptTable *all_kept;
+static LoadedTable *all_kept;
 
-static const KeptTable *find_kept(const FieldFileKind *kind, const char *bytes, size_t size)
+static const LoadedTable *find_kept(const FieldFileKind *kind, const char *bytes, size_t size)
 {
-    const KeptTable *kept = all_kept;
+    const LoadedTable *kept = all_kept;
     while (kept && (kept->kind != kind || kept->size != size || memcmp(kept->bytes, bytes, size) != 0))
         kept = kept->next;
     return kept;
@@ -40,7 +40,7 @@ static const KeptTable *find_kept(const FieldFileKind *kind, const char *bytes, 
 static const FieldTable *keep(const char *path, char *bytes, size_t size, const FieldFileKind *kind,
                               Error *error)
 {
-    KeptTable *kept = malloc(sizeof *kept);
+    LoadedTable *kept = malloc(sizeof *kept);
     FieldTable *table = kept ? field_file_parse(path, bytes, size, kind, error) : NULL;
     if (!kept)
         error_set(error, "%.300s: no memory", path);
@@ -49,14 +49,14 @@ static const FieldTable *keep(const char *path, char *bytes, size_t size, const 
         free(kept);
         return NULL;
     }
-    *kept = (KeptTable){all_kept, kind, bytes, size, table};
+    *kept = (LoadedTable){all_kept, kind, bytes, size, table};
     all_kept = kept;
     return table;
 }
 
 bool scene_names_table(const char *text)
 {
-    const size_t length = strlen(text);
+    const size_t length = strlen(text_or_empty(text));
     return length > 4 && strcmp(text + length - 4, ".csv") == 0;
 }
 
@@ -150,7 +150,7 @@ static const FieldTable *table_of(const SceneCheck *check, const char *key, cons
         return NULL;
     }
     char *bytes = read_file(path, FIELD_FILE_BYTES_MAX, "table", &size, &why);
-    const KeptTable *kept = bytes ? find_kept(kind, bytes, size) : NULL;
+    const LoadedTable *kept = bytes ? find_kept(kind, bytes, size) : NULL;
     if (!bytes)
         (void)FAIL(check, key, "%s", why.message);
     if (!kept)
@@ -165,10 +165,32 @@ static bool check_plane(const SceneCheck *check, const char *key, const FieldTab
            FAIL(check, key, "a 2D scene has no z; leave its columns out of the table");
 }
 
-static bool read_heights(const SceneCheck *check, const char *key, Fill *fill)
+/* Lets `read` fill in each fill of fluid f; "fluids[0].fill[1]" is the path of a fill. */
+typedef bool FillReader(const void *user, const char *path, Fill *fill);
+static bool each_fill(const SceneCheck *check, WorldDef *world, int f, FillReader *read, const void *user)
 {
+    FluidDef *fluid = &world->fluids[f];
+    const size_t size = (size_t)fluid->fill_count * sizeof *fluid->fills;
+    Fill *fills = bytes_copy(fluid->fills, size);
+    for (int i = 0; fills && i < fluid->fill_count; i++) {
+        char path[64];
+        snprintf(path, sizeof path, "fluids[%d].fill[%d]", f, i);
+        if (!read(user, path, &fills[i])) {
+            free(fills);
+            return false;
+        }
+    }
+    fluid->fills = bytes_give(fills, size);
+    return fluid->fills || size == 0 || FAIL(check, "fluids", "out of memory for the fills");
+}
+
+static bool read_heights(const void *user, const char *path, Fill *fill)
+{
+    const SceneCheck *check = user;
+    char key[96];
     if (!scene_names_table(fill->below))
         return true;
+    snprintf(key, sizeof key, "%s.below", path);
     fill->heights = table_of(check, key, fill->below, &field_file_heights);
     return fill->heights && check_plane(check, key, fill->heights);
 }
@@ -190,13 +212,9 @@ bool scene_read_tables(const YamlTree *tree, Scene *scene, Error *error)
     for (int f = 0; f < scene->world.fluid_count; f++) {
         FluidDef *fluid = &scene->world.fluids[f];
         snprintf(key, sizeof key, "fluids[%d].velocity_table", f);
-        if (!read_velocities(&check, key, fluid))
+        if (!read_velocities(&check, key, fluid) ||
+            !each_fill(&check, &scene->world, f, read_heights, &check))
             return false;
-        for (int i = 0; i < fluid->fill_count; i++) {
-            snprintf(key, sizeof key, "fluids[%d].fill[%d].below", f, i);
-            if (!read_heights(&check, key, &fluid->fills[i]))
-                return false;
-        }
     }
     return true;
 }
@@ -520,18 +538,21 @@ static bool read_one(const MeshReader *reader, const char *key, MeshUse *mesh)
     return true;
 }
 
+static bool read_fill_mesh(const void *user, const char *path, Fill *fill)
+{
+    char key[96];
+    snprintf(key, sizeof key, "%s.mesh.file", path);
+    return fill->kind != FILL_MESH || read_one(user, key, &fill->mesh);
+}
+
 bool scene_read_meshes(const YamlTree *tree, Scene *scene, const SceneSettings *settings, Notes *notes,
                        Error *error)
 {
     const MeshReader reader = {{tree, scene, error}, settings, notes};
     char key[96];
     for (int f = 0; f < scene->world.fluid_count; f++)
-        for (int i = 0; i < scene->world.fluids[f].fill_count; i++) {
-            Fill *fill = &scene->world.fluids[f].fills[i];
-            snprintf(key, sizeof key, "fluids[%d].fill[%d].mesh.file", f, i);
-            if (fill->kind == FILL_MESH && !read_one(&reader, key, &fill->mesh))
-                return false;
-        }
+        if (!each_fill(&reader.check, &scene->world, f, read_fill_mesh, &reader))
+            return false;
     for (int k = 0; k < scene->world.solid_count; k++) {
         SolidDef *solid = &scene->world.solids[k];
         snprintf(key, sizeof key, "solids[%d].mesh.file", k);

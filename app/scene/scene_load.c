@@ -1,19 +1,15 @@
 #include "app/scene/scene.h"
 
 #include "app/base/program.h"
-#include "app/scene/keys.h"
-#include "app/scene/scene_files.h"
 #include "app/scene/scene_private.h"
 #include "app/scene/yaml/yaml.h"
-#include "render/renderer.h"
-#include "sim/start/fill.h"
+#include "sim/base/base.h"
+#include "sim/start/start.h"
 
 #include <ctype.h>
 #include <math.h>
 #include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { SHOWN_SIZE = 128 };
@@ -182,6 +178,43 @@ static void list_begin(const KeyPlace *place, const Key *list, int index, char *
         list->init(element, index);
 }
 
+/* Reads the elements of a list into `at`, which has room for them. */
+static bool read_elements(const KeyPlace *place, const Key *key, const YamlNode *node, const char *shown,
+                          char *at)
+{
+    const KeyListMapping *like = key_list_mapping(key);
+    char parent[SHOWN_SIZE];
+    snprintf(parent, sizeof parent, "%.120s%s", like ? like->mapping : key->path, like ? "" : "[]");
+    int index = 0;
+    for (const YamlNode *child = node->first; child; child = child->next, index++) {
+        KeyPlace inner = {.tree = place->tree, .node = child, .parent = parent, .error = place->error};
+        inner.base = at + (size_t)index * key->size;
+        snprintf(inner.shown, SHOWN_SIZE, "%.110s[%d]", shown, index);
+        list_begin(place, key, index, inner.base);
+        inner.base -= like ? like->at : 0; /* the mapping's rows count from there */
+        if (!read_mapping(&inner))
+            return false;
+    }
+    return true;
+}
+
+/* Reads a list whose struct has a pointer to the elements. */
+static bool read_kept_list(const KeyPlace *place, const Key *key, const YamlNode *node, const char *shown,
+                           size_t elements)
+{
+    char *at = calloc(elements + 1, key->size);
+    const void **list = (const void **)(void *)(place->base + key->offset);
+    if (!at)
+        return tree_error(place->tree, node, place->error, "out of memory for %s", shown);
+    if (!read_elements(place, key, node, shown, at)) {
+        free(at);
+        return false;
+    }
+    *list = bytes_give(at, elements * key->size);
+    return *list || elements == 0 ||
+           tree_error(place->tree, node, place->error, "out of memory for %s", shown);
+}
+
 static bool read_list(const KeyPlace *place, const Key *key, const YamlNode *node, const char *shown)
 {
     if (node->kind != NODE_SEQUENCE)
@@ -191,21 +224,12 @@ static bool read_list(const KeyPlace *place, const Key *key, const YamlNode *nod
     if ((double)elements < key->min || (double)elements > key->max)
         return tree_error(place->tree, node, place->error, "%s has %zu %s; it must have %g to %g", shown,
                           elements, elements == 1 ? "entry" : "entries", key->min, key->max);
-    const KeyListMapping *like = key_list_mapping(key);
-    char parent[SHOWN_SIZE];
-    snprintf(parent, sizeof parent, "%.120s%s", like ? like->mapping : key->path, like ? "" : "[]");
-    int index = 0;
-    for (const YamlNode *child = node->first; child; child = child->next, index++) {
-        KeyPlace inner = {.tree = place->tree, .node = child, .parent = parent, .error = place->error};
-        inner.base = place->base + key->offset + (size_t)index * key->size;
-        snprintf(inner.shown, SHOWN_SIZE, "%.110s[%d]", shown, index);
-        list_begin(place, key, index, inner.base);
-        inner.base -= like ? like->at : 0; /* the mapping's rows count from there */
-        if (!read_mapping(&inner))
-            return false;
-    }
-    *(int *)(place->base + key->aux) = index;
-    return true;
+    const bool read = key->flags & KEY_POINTER
+                          ? read_kept_list(place, key, node, shown, elements)
+                          : read_elements(place, key, node, shown, place->base + key->offset);
+    if (read)
+        *(int *)(place->base + key->aux) = (int)elements;
+    return read;
 }
 
 static bool read_key(const KeyPlace *place, const Key *key, const YamlNode *node, const char *shown)
@@ -317,7 +341,7 @@ static void file_scalars(const YamlTree *tree, ScalarNames names)
    different scalar. */
 static void range_of_scalar(const YamlTree *tree, const KeyScalar *scalar, const char *of_file, Scene *scene)
 {
-    static Scene usual;
+    Scene usual;
     const YamlNode *by = tree_at(tree, scalar->by), *range = tree_at(tree, scalar->range);
     const Key *key = scene_key_find(scalar->by);
     char before[NAME_SIZE], now[NAME_SIZE];
@@ -386,7 +410,7 @@ static bool read_scene(YamlTree *tree, const SceneSettings *settings, Scene *out
     if (!scene_read(tree, out, error))
         return false;
     out->world.dimensions = tree->dimensions;
-    snprintf(out->beside, sizeof out->beside, "%s", settings->beside ? settings->beside : "");
+    out->compared_set = settings->compared_set ? text_intern(settings->compared_set) : NULL;
     return scene_read_meshes(tree, out, settings, notes, error) && scene_check(tree, out, error) &&
            (!needs_tables || scene_read_tables(tree, out, error));
 }
@@ -523,6 +547,15 @@ bool scene_parse(const char *path, const char *bytes, size_t size, SceneSettings
     return ok;
 }
 
+bool scene_settings_add(SceneSettings *settings, const char *said, const char *set, Error *error)
+{
+    if (settings->count == SCENE_SETTINGS_MAX)
+        return error_set(error, "more than %d settings; write them into a scene file", SCENE_SETTINGS_MAX);
+    settings->said[settings->count] = said;
+    settings->set[settings->count++] = set;
+    return true;
+}
+
 bool scene_load(const char *name, SceneSettings *settings, Scene *out, Notes *notes, Error *error)
 {
     char path[SCENE_PATH_SIZE];
@@ -536,175 +569,5 @@ bool scene_load(const char *name, SceneSettings *settings, Scene *out, Notes *no
         return false;
     const bool ok = scene_parse(path, bytes, size, settings, out, notes, error);
     free(bytes);
-    return ok;
-}
-
-enum { PATH_SIZE = 256 };
-
-/* A setting to apply to the scene. */
-typedef struct Change {
-    const char *setting;
-    char path[PATH_SIZE];
-    const Key *key;
-    const Key *list; /* list with the key in its elements; NULL: none */
-    int element;     /* index in the path */
-    Error *error;
-} Change;
-
-/* True if keys of the list's elements may change. */
-static bool list_is_live(const Key *list)
-{
-    int count;
-    const Key *keys = scene_keys(&count);
-    for (int i = 0; i < count; i++)
-        if (key_list_mapping(list) || (keys[i].flags & KEY_LIVE && key_list(&keys[i]) == list))
-            return true;
-    return false;
-}
-
-/* Adds the list's elements, empty, to the tree. */
-static bool tree_add_list(YamlTree *tree, const Scene *scene, const Key *list, Error *error)
-{
-    for (int e = 0; e < key_list_count(list, scene); e++) {
-        char *setting = tree_alloc(tree, PATH_SIZE); /* owned by the tree */
-        if (!setting)
-            return error_set(error, "no memory");
-        snprintf(setting, PATH_SIZE, "%s[%d]=", list->path, e);
-        if (!tree_set(tree, setting, NULL, error))
-            return false;
-    }
-    return true;
-}
-
-/* Makes the tree for checks and messages: an empty scene, with elements in lists with live keys, and the
-   setting. Call tree_free in any case. */
-static bool tree_make(YamlTree *tree, const Scene *scene, const char *setting, Error *error)
-{
-    int count;
-    const Key *keys = scene_keys(&count);
-    if (!tree_read(tree, scene->path, "{}", 2, error))
-        return false;
-    for (int i = 0; i < count; i++)
-        if (keys[i].type == KEY_LIST && list_is_live(&keys[i]) &&
-            !tree_add_list(tree, scene, &keys[i], error))
-            return false;
-    return tree_set(tree, setting, NULL, error);
-}
-
-static bool unknown_live_key(const Change *change)
-{
-    int count;
-    const Key *keys = scene_keys(&count);
-    Suggestion near = suggest_for(change->path);
-    for (int i = 0; i < count; i++)
-        if (keys[i].flags & KEY_LIVE)
-            suggest_offer(&near, keys[i].path);
-    if (near.best)
-        return error_set(change->error, "--set %s: unknown key '%.60s'; did you mean '%s'?", change->setting,
-                         change->path, near.best);
-    return error_set(change->error,
-                     "--set %s: unknown key '%.60s'; `slosh info SCENE` lists the keys of a scene",
-                     change->setting, change->path);
-}
-
-static bool find_element(const Scene *scene, Change *change)
-{
-    const char *index = strchr(change->path, '[');
-    change->list = index ? key_list_of_mapping(change->path) : NULL;
-    if (!change->list)
-        change->list = key_list(change->key);
-    change->element = index ? (int)strtol(index + 1, NULL, 10) : 0;
-    const int count = change->list ? key_list_count(change->list, scene) : 0;
-    if (!change->list || change->element < count)
-        return true;
-    const char *list = change->list->path;
-    return error_set(change->error, "--set %s: the scene has no %s[%d]; use at most %s[%d]", change->setting,
-                     list, change->element, list, count - 1);
-}
-
-/* The view with the changed key. */
-static const ViewDef *view_of(const Scene *scene, const Change *change)
-{
-    return change->list ? &scene->views[change->element] : &scene->view;
-}
-
-static bool find_key(const Scene *scene, Change *change)
-{
-    change->key = scene_key_find(change->path);
-    if (!change->key)
-        return unknown_live_key(change);
-    if (!(change->key->flags & KEY_LIVE))
-        return error_set(change->error,
-                         "--set %s: %s cannot change while the simulation runs; set it before the start",
-                         change->setting, change->path);
-    if (!find_element(scene, change))
-        return false;
-    if (strncmp(change->key->path, "view.camera.", strlen("view.camera.")) == 0 &&
-        view_of(scene, change)->camera_auto)
-        return error_set(change->error,
-                         "--set %s: the camera is automatic; give the scene a view.camera with from and to",
-                         change->setting);
-    return true;
-}
-
-static void *base_of(Scene *scene, const Change *change)
-{
-    return (char *)scene + (change->list ? key_list_at(change->list, change->element) : 0);
-}
-
-static bool in_world(const Scene *scene, const Change *change, const void *base)
-{
-    const uintptr_t world = (uintptr_t)&scene->world, field = (uintptr_t)base + change->key->offset;
-    return field >= world && field < world + sizeof scene->world && !(change->key->flags & KEY_IDLE);
-}
-
-/* Makes ranges automatic whose scalar changed. */
-static void ranges_find_async(const Scene *before, Scene *after)
-{
-    const Key *views = scene_key_find("views");
-    for (int k = 0; k < KEY_SCALARS; k++) {
-        key_range_update(&key_scalars[k], before, after);
-        for (int i = 0; i < after->view_count; i++) {
-            const size_t at = key_list_at(views, i);
-            key_range_update(&key_scalars[k], (const char *)before + at, (char *)after + at);
-        }
-    }
-}
-
-/* Accepts an error that the scene had before the change: by hand the box may have become smaller than the
-   initial fluid. */
-static bool check(const YamlTree *tree, const Scene *before, const Scene *after, Error *error)
-{
-    Error was;
-    return scene_check(tree, after, error) ||
-           (!scene_check(tree, before, &was) && strcmp(was.message, error->message) == 0);
-}
-
-static bool take(YamlTree *tree, const Change *change, Scene *scene, bool *concerns_world)
-{
-    Scene after = *scene;
-    tree->dimensions = scene->world.dimensions;
-    void *base = base_of(&after, change);
-    if (!value_read(tree, change->key, tree_nearest(tree, change->path), change->path, base, change->error) ||
-        !check(tree, scene, &after, change->error))
-        return false;
-    ranges_find_async(scene, &after);
-    after.world.acceleration |= scene->world.acceleration; /* accelerations stay on once kept */
-    if (concerns_world)
-        *concerns_world = in_world(&after, change, base);
-    *scene = after;
-    return true;
-}
-
-bool scene_set_live(Scene *scene, const char *setting, bool *concerns_world, Error *error)
-{
-    YamlTree tree;
-    Change change = {.setting = setting, .error = error};
-    bool ok = tree_make(&tree, scene, setting, error);
-    if (ok) {
-        snprintf(change.path, sizeof change.path, "%.*s", (int)strcspn(setting, "="), setting);
-        ok = find_key(scene, &change) && take(&tree, &change, scene, concerns_world);
-    }
-    tree_free(&tree);
     return ok;
 }

@@ -1,6 +1,7 @@
+#include "app/scene/scene.h"
+
 #include "app/base/file.h"
 #include "app/base/program.h"
-#include "app/scene/scene_files.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -47,6 +47,9 @@ const char *key_range_scalar(const char *scalar);
 /* Makes the range automatic if `before`, a base of the same kind, has a different scalar. */
 void key_range_update(const KeyScalar *scalar, const void *before, void *base);
 
+/* The text in the field of a KEY_TEXT or KEY_SETTINGS; "" for none. */
+const char *key_text(const Key *key, const void *field);
+
 /* ---- values that read back as the same bits: keys_print.c ---- */
 
 enum { KEY_EXACT_SIZE = 2 * FILE_NAME_SIZE + 2 }; /* in quotes, with any letter escaped */
@@ -126,6 +129,9 @@ void advise(const YamlTree *tree, const char *path, Notes *notes, const char *fo
    The error points at the node of the wrong value. */
 bool scene_check(const YamlTree *tree, const Scene *scene, Error *error);
 
+/* True if all rules hold with the first part of the key's path among their keys. */
+bool scene_check_key(const Scene *scene, const char *path);
+
 /* Checks that each fluid has particles, and that all fit into the machine's memory. */
 bool scene_check_count(const YamlTree *tree, const Scene *scene, Error *error);
 
@@ -151,14 +157,8 @@ typedef struct SceneCheck {
 
 /* Places and directions in the box. */
 char scene_axis_name(int k);
-/* True if low..high on axis k lies between the walls, up to rounding. */
-bool scene_between_walls(const SceneCheck *check, const char *path, int k, double low, double high);
-bool scene_check_axis(const SceneCheck *check, const char *path, const double axis[3]);
 /* In two dimensions vectors must lie in the plane. */
 bool scene_check_plane(const SceneCheck *check, const char *path, const double v[3]);
-double scene_clamp_to_box(const SceneCheck *check, int k, double x);
-/* Distance of the point from the box, m. */
-double scene_outside_box(const SceneCheck *check, const double x[3]);
 bool scene_check_motion(const SceneCheck *check, const char *list, int m, const Motion *motion);
 
 /* Fluids with fills and emitters; drains; solids; probes. */

@@ -16,7 +16,7 @@ static void draw_overlay(Play *play)
     const double began = thread_cpu_ms();
     panels_range(play->picture.panels, play->picture.chosen, facts.range);
     panels_curve_ranges(play->picture.panels, play->picture.chosen, facts.opacity_range, facts.size_range);
-    play->picture.over |= play_overlay_draw(&play->overlay, &play->model, &facts, &play->actions);
+    play->picture.over |= play_overlay_draw(&play->overlay, &play->model, &facts, &play->requests);
     if (play_overlay_shown(&play->overlay, &play->model))
         frame_times_panel(&play->frame_times, thread_cpu_ms() - began);
 }

@@ -11,7 +11,7 @@ static bool too_early(const Play *play, WindowEventKind kind)
 
 static bool overlay_has(const Play *play, const WindowEvent *event)
 {
-    return play->model.has_particles && play->input.drag == PLAY_NONE &&
+    return play->model.has_particles && !play->input.drag &&
            play_overlay_takes(&play->overlay, &play->model, event);
 }
 
@@ -30,12 +30,11 @@ static bool grip_has(Play *play, const WindowEvent *event, bool free)
     if (!play->model.has_particles || !picture_visible(&play->picture))
         return false;
     const PanelViewport look = play_viewport(play, panel_of_mouse(play));
-    const bool has =
-        handle_tool_event(&play->handle_tool, &look, event, free && play->input.drag == PLAY_NONE);
+    const bool has = handle_tool_event(&play->handle_tool, &look, event, free && !play->input.drag);
     if (play->handle_tool.taken && play->handle_tool.wall && !before.taken) {
         play->wall_messages = play->model.status.messages;
-        action_add(&play->actions,
-                   &(Action){.kind = ACTION_GRAB_CAMERA}); /* the camera stays while the box changes */
+        request_add(&play->requests,
+                    &(Request){.kind = REQUEST_GRAB_CAMERA}); /* the camera stays while the box changes */
     }
     play->picture.over |= play->handle_tool.over != before.over || play->handle_tool.panel != before.panel;
     return has;
@@ -46,8 +45,8 @@ static void choose_view(Play *play, const WindowEvent *event)
 {
     const double *mouse = play->handle_tool.mouse;
     const bool acts = (event->kind == WINDOW_BUTTON && event->down) || event->kind == WINDOW_WHEEL;
-    if (acts && play->input.drag == PLAY_NONE && play->model.open.scene.view_count > 0)
-        action_add(&play->actions, &(Action){.kind = ACTION_CHOOSE_VIEW, .amount = {mouse[0], mouse[1]}});
+    if (acts && !play->input.drag && play->model.open.scene.view_count > 0)
+        request_add(&play->requests, &(Request){.kind = REQUEST_CHOOSE_VIEW, .amount = {mouse[0], mouse[1]}});
 }
 
 static void take_event(Play *play, const WindowEvent *event)
@@ -67,7 +66,7 @@ static void take_event(Play *play, const WindowEvent *event)
     if (!held)
         choose_view(play, event);
     if (!gripped)
-        input_event(&play->input, event, play_sight(play).height, &play->actions);
+        input_event(&play->input, event, play_sight(play).height, &play->requests);
 }
 
 /* Translates letters and signs to the user's keyboard layout. */
@@ -75,7 +74,7 @@ static WindowEvent on_layout(const WindowEvent *event)
 {
     WindowEvent own = *event;
     if (own.kind == WINDOW_KEY)
-        own.key = play_key_on_layout(own.key, own.label);
+        own.key = key_on_layout(own.key, own.label);
     return own;
 }
 
@@ -95,12 +94,12 @@ static bool shaken_enough(const Play *play)
 /* Drags a wall; releases a blocked wall, for which the simulator reports the reason once. */
 static void drag_wall(Play *play, const PanelViewport *look)
 {
-    Action action = {.kind = ACTION_RESIZE_BOX};
+    Request request = {.kind = REQUEST_RESIZE_BOX};
     HandleTool *handle_tool = &play->handle_tool;
     if (play->model.status.messages != play->wall_messages)
         handle_tool->taken = false;
-    else if (handle_tool_box_size(handle_tool, look, action.amount))
-        action_add(&play->actions, &action);
+    else if (handle_tool_box_size(handle_tool, look, request.amount))
+        request_add(&play->requests, &request);
 }
 
 /* Applies the mouse's drag of a handle since the last picture. */
@@ -113,8 +112,8 @@ static void drag_grip(Play *play)
     if (play->handle_tool.wall)
         drag_wall(play, &look);
     else
-        action_add_settings(&play->actions, settings,
-                            handle_tool_settings(&play->handle_tool, &look, settings));
+        request_add_settings(&play->requests, settings,
+                             handle_tool_settings(&play->handle_tool, &look, settings));
 }
 
 /* Presses and releases of fingers and solids use the mouse position of the event, not the present one. */
@@ -124,7 +123,7 @@ static void take_and_act(Play *play, const WindowEvent *event)
     if (touches)
         play_apply_hand(play);
     take_event(play, event);
-    actions_execute(play);
+    requests_execute(play);
     if (touches)
         play_apply_hand(play);
 }
@@ -133,7 +132,7 @@ void events_process(Play *play)
 {
     WindowEvent event;
     const double began = thread_cpu_ms();
-    actions_execute(play); /* requests of the panel and the hand during the last picture */
+    requests_execute(play); /* requests of the panel and the hand during the last picture */
     while (next_shake(play, &event))
         take_and_act(play, &event);
     play->quit |= shaken_enough(play);
@@ -145,7 +144,7 @@ void events_process(Play *play)
     drag_grip(play);
     if (play->model.has_particles)
         play_apply_hand(play);
-    actions_execute(play);
+    requests_execute(play);
     frame_times_events(&play->frame_times, thread_cpu_ms() - began);
 }
 

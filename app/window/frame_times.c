@@ -1,4 +1,4 @@
-#include "app/window/frame_times.h"
+#include "app/window/window.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,10 +34,10 @@ void frame_times_event(FrameTimes *frame_times, double when_ms, uint64_t command
         frame_times->waiting[frame_times->waiting_count++] = (FrameEvent){when_ms, command};
 }
 
-static void show_events(FrameTimes *frame_times, double now_ms, uint64_t obeyed)
+static void show_events(FrameTimes *frame_times, double now_ms, uint64_t applied)
 {
     int shown = 0;
-    while (shown < frame_times->waiting_count && frame_times->waiting[shown].command <= obeyed) {
+    while (shown < frame_times->waiting_count && frame_times->waiting[shown].command <= applied) {
         frame_times->latency_ms[frame_times->latencies++ % FRAME_TIMES_SAMPLES_MAX] =
             (float)(now_ms - frame_times->waiting[shown].when_ms);
         shown++;
@@ -47,7 +47,7 @@ static void show_events(FrameTimes *frame_times, double now_ms, uint64_t obeyed)
             sizeof *frame_times->waiting * (size_t)frame_times->waiting_count);
 }
 
-void frame_times_picture(FrameTimes *frame_times, double now_ms, uint64_t obeyed)
+void frame_times_picture(FrameTimes *frame_times, double now_ms, uint64_t applied)
 {
     if (frame_times->pictures++ == 0) {
         frame_times->first_ms = process_age_ms();
@@ -68,7 +68,7 @@ void frame_times_picture(FrameTimes *frame_times, double now_ms, uint64_t obeyed
         frame_times->second_began_ms = now_ms;
         frame_times->in_second = 0;
     }
-    show_events(frame_times, now_ms, obeyed);
+    show_events(frame_times, now_ms, applied);
 }
 
 static double clock_ms(clockid_t clock)

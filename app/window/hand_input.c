@@ -10,13 +10,13 @@
 static const double CAMERA_TURN = M_PI / 2, CAMERA_ZOOM = 10; /* radians and steps per second, at rate 1 */
 
 /* Steers the camera with motion devices. */
-static void steer(ActionQueue *actions, const double rates[3])
+static void steer(RequestQueue *requests, const double rates[3])
 {
     if (rates[0] == 0 && rates[1] == 0 && rates[2] == 0)
         return;
-    action_add(actions,
-               &(Action){.kind = ACTION_STEER_CAMERA,
-                         .amount = {CAMERA_TURN * rates[0], CAMERA_TURN * rates[1], CAMERA_ZOOM * rates[2]}});
+    request_add(requests, &(Request){.kind = REQUEST_STEER_CAMERA,
+                                     .amount = {CAMERA_TURN * rates[0], CAMERA_TURN * rates[1],
+                                                CAMERA_ZOOM * rates[2]}});
 }
 
 static bool differs(const double *a, const double *b, int count)
@@ -46,9 +46,9 @@ static void take_news(Play *play, const BoxControlNews *news)
     for (int i = 0; i < news->sent_count && !play->model.paused; i++)
         frame_times_event(&play->frame_times, news->sent[i].when_ms, news->sent[i].number);
     if (!play->touch.on)
-        steer(&play->actions, news->camera);
-    for (int i = 0; i < news->command_count; i++)
-        action_add_command(&play->actions, news->commands[i]);
+        steer(&play->requests, news->camera);
+    for (int i = 0; i < news->action_count; i++)
+        request_add_action(&play->requests, news->actions[i]);
 }
 
 void play_mouse_ray(const Play *play, const PanelViewport *look, SightRay *ray, double forward[3])
@@ -90,7 +90,7 @@ static void press(Play *play, const SightRay *ray)
     const FingerWay left = (FingerWay)(play->model.open.scene.touch.way + 1);
     double at[3] = {0, 0.5 * play->model.particles.box_size[1], 0};
     model_take_state(&play->model); /* a solver on the GPU has since written to the drawn buffers */
-    const FingerWay way = play->input.drag == PLAY_TOUCH_OTHER ? touch_tool_other(left) : left;
+    const FingerWay way = play->input.drag == &action_pull ? touch_tool_other(left) : left;
     if (play->model.has_particles &&
         pick_position(&play->model.particles, ray, 0.5 * play->model.particles.spacing, at) &&
         way == FINGER_POUR)
@@ -107,7 +107,7 @@ static void hold(Play *play, const SightRay *ray, const double forward[3])
     const WorldDef *def = &play->model.open.scene.world;
     const double time = play->model.particles.time;
     if (!held->pressed && !solid_drag_press(held, def, time, play->model.particles.floating, ray, forward,
-                                            play->input.drag == PLAY_TOUCH_OTHER))
+                                            play->input.drag == &action_pull))
         notice_tell(&play->notice, "there is no solid under the mouse; 1 puts a ball there, 2 a box");
     if (!solid_drag_move(held, ray, &command))
         return;
@@ -124,7 +124,7 @@ static uint64_t touch(Play *play)
     const unsigned travels = tool->travels;
     touch_tool_travel(tool, play->model.travels, play->model.last_script == SCRIPT_PLAYS);
     if (!input_touches(&play->input) || !picture_visible(&play->picture)) {
-        touch_tool_release(tool, play->model.status.past.behind);
+        touch_tool_release(tool, play->model.status.timeline.rewound);
         solid_drag_release(&tool->hold);
     } else if (renderer_is_flat(panels_renderer(play->picture.panels, play->picture.chosen))) {
         if (!tool->spent)
@@ -292,7 +292,7 @@ void play_apply_hand(Play *play)
     BoxControlNews news;
     orbit_axes(&orbit, hand.right, hand.up, hand.away);
     const double event_ms =
-        input_fill_hand(&play->input, has_pad ? &pad : NULL, metres, &hand, &play->actions);
+        input_fill_hand(&play->input, has_pad ? &pad : NULL, metres, &hand, &play->requests);
     const uint64_t number = box_control_update(play->control, &hand, particles->box_size, &news);
     follow_pad(play, has_pad ? &pad : NULL, news.camera);
     const uint64_t touched = touch(play);

@@ -1,4 +1,4 @@
-#include "app/window/input.h"
+#include "app/window/window.h"
 
 #define GLFW_INCLUDE_NONE /* numbers only */
 #include <GLFW/glfw3.h>
@@ -7,53 +7,55 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool adds_up(ActionKind kind)
+/* True if both may be done as one request with the sum of their amounts. */
+static bool add_up(const Request *a, const Request *b)
 {
-    return kind == ACTION_TURN_CAMERA || kind == ACTION_PAN_CAMERA || kind == ACTION_ZOOM_CAMERA ||
-           kind == ACTION_STEER_CAMERA || kind == ACTION_CHANGE_TOUCH || kind == ACTION_TILT_GRAVITY;
+    return a->kind == b->kind &&
+           (a->kind == REQUEST_STEER_CAMERA ||
+            (a->kind == REQUEST_ACTION && a->action == b->action && a->action->flags & ACTION_ADDS_UP));
 }
 
-void action_add(ActionQueue *queue, const Action *action)
+void request_add(RequestQueue *queue, const Request *request)
 {
-    Action *last = &queue->actions[(queue->first + queue->count + ACTIONS_MAX - 1) % ACTIONS_MAX];
-    if (queue->count > 0 && last->kind == action->kind && adds_up(action->kind)) {
+    Request *last = &queue->requests[(queue->first + queue->count + REQUESTS_MAX - 1) % REQUESTS_MAX];
+    if (queue->count > 0 && add_up(last, request)) {
         for (int k = 0; k < 3; k++)
-            last->amount[k] += action->amount[k];
+            last->amount[k] += request->amount[k];
         return;
     }
-    if (queue->count < ACTIONS_MAX)
-        queue->actions[(queue->first + queue->count++) % ACTIONS_MAX] = *action;
+    if (queue->count < REQUESTS_MAX)
+        queue->requests[(queue->first + queue->count++) % REQUESTS_MAX] = *request;
     else
         queue->lost++;
 }
 
-int actions_lost(ActionQueue *queue)
+int requests_lost(RequestQueue *queue)
 {
     const int lost = queue->lost;
     queue->lost = 0;
     return lost;
 }
 
-void action_add_command(ActionQueue *queue, PlayCommand command)
+void request_add_action(RequestQueue *queue, const UserAction *action)
 {
-    action_add(queue, &(Action){.kind = ACTION_COMMAND, .command = command});
+    request_add(queue, &(Request){.kind = REQUEST_ACTION, .action = action});
 }
 
-void action_add_settings(ActionQueue *queue, const ViewSetting *settings, int count)
+void request_add_settings(RequestQueue *queue, const ViewSetting *settings, int count)
 {
     for (int i = 0; i < count; i++) {
-        Action action = {.kind = ACTION_SETTING};
-        snprintf(action.text, sizeof action.text, "%s", settings[i].text);
-        action_add(queue, &action);
+        Request request = {.kind = REQUEST_SETTING};
+        snprintf(request.text, sizeof request.text, "%s", settings[i].text);
+        request_add(queue, &request);
     }
 }
 
-bool action_next(ActionQueue *queue, Action *action)
+bool request_next(RequestQueue *queue, Request *request)
 {
     if (queue->count == 0)
         return false;
-    *action = queue->actions[queue->first];
-    queue->first = (queue->first + 1) % ACTIONS_MAX;
+    *request = queue->requests[queue->first];
+    queue->first = (queue->first + 1) % REQUESTS_MAX;
     queue->count--;
     return true;
 }
@@ -63,7 +65,7 @@ static const double DRAG_TURN = 2 * M_PI; /* radians of a drag over the picture'
 
 void input_begin(PlayInput *input)
 {
-    *input = (PlayInput){.drag = PLAY_NONE, .touching = input->touching};
+    *input = (PlayInput){.drag = NULL, .touching = input->touching};
 }
 
 static void hand_event(PlayInput *input, const WindowEvent *event)
@@ -73,28 +75,28 @@ static void hand_event(PlayInput *input, const WindowEvent *event)
 }
 
 /* While touching, Shift and Ctrl still move the box. */
-static PlayCommand touch_of(int button, int modifiers)
+static const UserAction *touch_of(int button, int modifiers)
 {
     if (button == GLFW_MOUSE_BUTTON_RIGHT)
-        return PLAY_TOUCH_OTHER;
+        return &action_pull;
     const bool bare = !(modifiers & (GLFW_MOD_SHIFT | GLFW_MOD_CONTROL));
-    return button == GLFW_MOUSE_BUTTON_LEFT && bare ? PLAY_TOUCH_DRAG : PLAY_NONE;
+    return button == GLFW_MOUSE_BUTTON_LEFT && bare ? &action_stir : NULL;
 }
 
-static PlayCommand drag_of(const PlayInput *input, int button, int modifiers)
+static const UserAction *drag_of(const PlayInput *input, int button, int modifiers)
 {
-    const PlayCommand touch = input->touching ? touch_of(button, modifiers) : PLAY_NONE;
-    if (touch != PLAY_NONE)
+    const UserAction *touch = input->touching ? touch_of(button, modifiers) : NULL;
+    if (touch)
         return touch;
     if (button == GLFW_MOUSE_BUTTON_RIGHT || button == GLFW_MOUSE_BUTTON_MIDDLE)
-        return PLAY_PAN;
+        return &action_pan;
     if (button != GLFW_MOUSE_BUTTON_LEFT)
-        return PLAY_NONE;
+        return NULL;
     if (modifiers & GLFW_MOD_SHIFT && modifiers & GLFW_MOD_CONTROL)
-        return PLAY_GRAVITY_DRAG;
-    return modifiers & GLFW_MOD_SHIFT     ? PLAY_MOVE_DRAG
-           : modifiers & GLFW_MOD_CONTROL ? PLAY_TURN_DRAG
-                                          : PLAY_ORBIT;
+        return &action_tilt_gravity;
+    return modifiers & GLFW_MOD_SHIFT     ? &action_move_box
+           : modifiers & GLFW_MOD_CONTROL ? &action_turn_box
+                                          : &action_orbit;
 }
 
 enum { TRIGGER = -1 }; /* used as a mouse button's number */
@@ -104,152 +106,153 @@ void input_press(PlayInput *input, double press)
     static const double STEPS = 16; /* avoids new commands for a trembling finger */
     const double by = round(STEPS * fmin(fabs(press), 1)) / STEPS;
     const bool has = input_touches(input) && input->drag_button == TRIGGER;
-    if (!has && (!input->touching || input->drag != PLAY_NONE || !(by > 0)))
+    if (!has && (!input->touching || input->drag || !(by > 0)))
         return;
-    input->drag = by > 0 ? (press > 0 ? PLAY_TOUCH_DRAG : PLAY_TOUCH_OTHER) : PLAY_NONE;
+    input->drag = by > 0 ? (press > 0 ? &action_stir : &action_pull) : NULL;
     input->drag_button = TRIGGER;
     input->pressed = by;
 }
 
 bool input_touches(const PlayInput *input)
 {
-    return input->drag == PLAY_TOUCH_DRAG || input->drag == PLAY_TOUCH_OTHER;
+    return input->drag && input->drag->drag == DRAG_TOUCHES;
 }
 
 /* True for drags that act only between two pictures. */
 static bool drags_slowly(const PlayInput *input)
 {
-    return input->drag == PLAY_PAN || input->drag == PLAY_ORBIT || input->drag == PLAY_GRAVITY_DRAG;
+    return input->drag && (input->drag->drag == DRAG_HEIGHTS || input->drag->drag == DRAG_RADIANS);
 }
 
-static void on_button(PlayInput *input, const WindowEvent *event, ActionQueue *actions)
+static void on_button(PlayInput *input, const WindowEvent *event, RequestQueue *requests)
 {
     if (!event->down && event->button == input->drag_button) { /* never for a trigger */
-        if (input->drag == PLAY_PAN && !input->grabbed && event->button == GLFW_MOUSE_BUTTON_RIGHT)
-            action_add_command(actions, PLAY_TRAIL);
-        input->drag = PLAY_NONE;
+        if (input->drag == &action_pan && !input->grabbed && event->button == GLFW_MOUSE_BUTTON_RIGHT)
+            request_add_action(requests, &action_trail);
+        input->drag = NULL;
     }
-    if (!event->down || input->drag != PLAY_NONE)
+    if (!event->down || input->drag)
         return;
     input->drag = drag_of(input, event->button, event->modifiers);
     input->drag_button = event->button;
     input->pressed = 1;
     memcpy(input->mouse, (double[]){event->x, event->y}, sizeof input->mouse);
-    input->grabbed = input->drag == PLAY_ORBIT;
+    input->grabbed = input->drag == &action_orbit;
     if (input->grabbed)
-        action_add(actions, &(Action){.kind = ACTION_GRAB_CAMERA});
+        request_add(requests, &(Request){.kind = REQUEST_GRAB_CAMERA});
     if (input_touches(input))
         hand_event(input, event);
 }
 
 /* A right click becomes a drag once the mouse has moved away. */
-static bool is_still_a_click(PlayInput *input, const WindowEvent *event, ActionQueue *actions)
+static bool is_still_a_click(PlayInput *input, const WindowEvent *event, RequestQueue *requests)
 {
-    if (input->drag != PLAY_PAN || input->grabbed)
+    if (input->drag != &action_pan || input->grabbed)
         return false;
     if (hypot(event->x - input->mouse[0], event->y - input->mouse[1]) < CLICK_REACH)
         return true;
     input->grabbed = true;
-    action_add(actions, &(Action){.kind = ACTION_GRAB_CAMERA});
+    request_add(requests, &(Request){.kind = REQUEST_GRAB_CAMERA});
     return false;
 }
 
-static void on_move(PlayInput *input, const WindowEvent *event, int height, ActionQueue *actions)
+static void on_move(PlayInput *input, const WindowEvent *event, int height, RequestQueue *requests)
 {
-    if (is_still_a_click(input, event, actions))
+    if (is_still_a_click(input, event, requests))
         return;
     const double right = event->x - input->mouse[0], up = input->mouse[1] - event->y;
     const double per_height = 1.0 / fmax(height, 1);
     const double turn[2] = {DRAG_TURN * right * per_height, DRAG_TURN * up * per_height};
+    Request request = {.kind = REQUEST_ACTION, .action = input->drag, .amount = {turn[0], turn[1]}};
     memcpy(input->mouse, (double[]){event->x, event->y}, sizeof input->mouse);
-    switch (input->drag) {
-    case PLAY_ORBIT:
-        action_add(actions, &(Action){.kind = ACTION_TURN_CAMERA, .amount = {turn[0], turn[1]}});
+    switch (input->drag ? input->drag->drag : DRAG_NONE) {
+    case DRAG_HEIGHTS:
+        request.amount[0] = right * per_height;
+        request.amount[1] = up * per_height;
+        request_add(requests, &request);
         break;
-    case PLAY_PAN:
-        action_add(actions,
-                   &(Action){.kind = ACTION_PAN_CAMERA, .amount = {right * per_height, up * per_height}});
+    case DRAG_RADIANS:
+        request_add(requests, &request);
         break;
-    case PLAY_GRAVITY_DRAG:
-        action_add(actions, &(Action){.kind = ACTION_TILT_GRAVITY, .amount = {turn[0], turn[1]}});
-        break;
-    case PLAY_MOVE_DRAG:
+    case DRAG_MOVES:
         input->move_drag[0] += right;
         input->move_drag[1] += up;
         hand_event(input, event);
         break;
-    case PLAY_TURN_DRAG:
+    case DRAG_TURNS:
         input->turn_drag[0] += turn[0];
         input->turn_drag[1] += turn[1];
         hand_event(input, event);
         break;
-    case PLAY_TOUCH_DRAG:
-    case PLAY_TOUCH_OTHER:
+    case DRAG_TOUCHES:
         hand_event(input, event);
         break;
-    default:
+    case DRAG_NONE:
         break;
     }
 }
 
-static bool is_held_key(int key)
+static bool is_held_key(int number)
 {
-    for (const PlayHeldKey *held = play_held_keys; held->key; held++)
-        if (held->key == key)
+    const HeldKey *key;
+    for (int i = 0; (key = user_action_held_key(i)); i++)
+        if (key->key == number)
             return true;
     return false;
 }
 
-static PlayCommand command_of(const WindowEvent *event)
+static const UserAction *action_of(const WindowEvent *event)
 {
-    const PlayCommand command = event->down ? play_command_of_key(event->key, event->modifiers) : PLAY_NONE;
-    const bool once = command != PLAY_NONE && !(play_command_rows[command].flags & PLAY_REPEATS);
-    return event->repeated && once ? PLAY_NONE : command;
+    const UserAction *action = event->down ? user_action_of_key(event->key, event->modifiers) : NULL;
+    const bool once = action && !(action->flags & ACTION_REPEATS);
+    return event->repeated && once ? NULL : action;
 }
 
-static void on_key(PlayInput *input, const WindowEvent *event, ActionQueue *actions)
+static void on_key(PlayInput *input, const WindowEvent *event, RequestQueue *requests)
 {
     if (event->key < 0 || event->key >= INPUT_KEYS)
         return;
     input->down[event->key] = event->down;
     if (is_held_key(event->key) && !event->repeated)
         hand_event(input, event);
-    const PlayCommand command = command_of(event);
-    if (command != PLAY_NONE)
-        action_add(actions, &(Action){.kind = ACTION_COMMAND, .command = command, .held = event->repeated});
+    const UserAction *action = action_of(event);
+    if (action)
+        request_add(requests, &(Request){.kind = REQUEST_ACTION, .action = action, .held = event->repeated});
 }
 
 bool input_holds_box(const PlayInput *input)
 {
-    bool holds = input->drag == PLAY_MOVE_DRAG || input->drag == PLAY_TURN_DRAG;
-    for (const PlayHeldKey *held = play_held_keys; held->key; held++)
-        holds |= input->down[held->key];
+    const ActionDrag drag = input->drag ? input->drag->drag : DRAG_NONE;
+    bool holds = drag == DRAG_MOVES || drag == DRAG_TURNS;
+    const HeldKey *key;
+    for (int i = 0; (key = user_action_held_key(i)); i++)
+        holds |= input->down[key->key];
     return holds;
 }
 
 bool input_busy(const PlayInput *input)
 {
-    return input->drag != PLAY_NONE || input_holds_box(input);
+    return input->drag || input_holds_box(input);
 }
 
 /* Losing the focus releases all keys and drags. */
-static void on_focus(PlayInput *input, const WindowEvent *event, ActionQueue *actions)
+static void on_focus(PlayInput *input, const WindowEvent *event, RequestQueue *requests)
 {
     if (event->down)
         return;
     if (input_holds_box(input))
-        action_add(actions, &(Action){.kind = ACTION_STOP_BOX});
+        request_add(requests, &(Request){.kind = REQUEST_STOP_BOX});
     memset(input->down, 0, sizeof input->down);
     memset(input->move_drag, 0, sizeof input->move_drag);
     memset(input->turn_drag, 0, sizeof input->turn_drag);
-    input->drag = PLAY_NONE;
+    input->drag = NULL;
 }
 
-static void on_drop(const WindowEvent *event, ActionQueue *actions)
+static void on_drop(const WindowEvent *event, RequestQueue *requests)
 {
-    Action action = {.kind = ACTION_OPEN_SCENE};
-    snprintf(action.text, sizeof action.text, "%s", event->path);
-    action_add(actions, &action);
+    Request request = {.kind = REQUEST_OPEN_SCENE};
+    snprintf(request.text, sizeof request.text, "%s", event->path);
+    request_add(requests, &request);
 }
 
 static int modifiers_of(const bool *down)
@@ -260,40 +263,41 @@ static int modifiers_of(const bool *down)
 }
 
 /* Some systems report a sideways wheel while Shift is down. */
-static void on_wheel(const PlayInput *input, const WindowEvent *event, ActionQueue *actions)
+static void on_wheel(const PlayInput *input, const WindowEvent *event, RequestQueue *requests)
 {
     const bool shift = modifiers_of(input->down) & GLFW_MOD_SHIFT;
     const double notches = event->y != 0 ? event->y : event->x;
-    if (!input->touching)
-        action_add(actions, &(Action){.kind = ACTION_ZOOM_CAMERA, .amount = {event->y}});
-    else
-        action_add(actions, &(Action){.kind = ACTION_CHANGE_TOUCH,
-                                      .amount = {shift ? 0 : notches, shift ? notches : 0}});
+    Request request = {.kind = REQUEST_ACTION, .action = &action_zoom, .amount = {event->y}};
+    if (input->touching) {
+        request.action = shift ? &action_touch_strength : &action_touch_size;
+        request.amount[0] = notches;
+    }
+    request_add(requests, &request);
 }
 
-void input_event(PlayInput *input, const WindowEvent *event, int height, ActionQueue *actions)
+void input_event(PlayInput *input, const WindowEvent *event, int height, RequestQueue *requests)
 {
     switch (event->kind) {
     case WINDOW_KEY:
-        on_key(input, event, actions);
+        on_key(input, event, requests);
         break;
     case WINDOW_BUTTON:
-        on_button(input, event, actions);
+        on_button(input, event, requests);
         break;
     case WINDOW_MOVE:
-        on_move(input, event, height, actions);
+        on_move(input, event, height, requests);
         break;
     case WINDOW_WHEEL:
-        on_wheel(input, event, actions);
+        on_wheel(input, event, requests);
         break;
     case WINDOW_FOCUS:
-        on_focus(input, event, actions);
+        on_focus(input, event, requests);
         break;
     case WINDOW_DROP:
-        on_drop(event, actions);
+        on_drop(event, requests);
         break;
     case WINDOW_CLOSE:
-        action_add(actions, &(Action){.kind = ACTION_CLOSE_WINDOW});
+        request_add(requests, &(Request){.kind = REQUEST_CLOSE_WINDOW});
         break;
     case WINDOW_RESIZE:
     case WINDOW_EXPOSE:
@@ -306,7 +310,7 @@ bool input_only_holds(const PlayInput *input, const WindowEvent *event)
 {
     if (event->kind == WINDOW_MOVE)
         return !drags_slowly(input);
-    return event->kind == WINDOW_KEY && command_of(event) == PLAY_NONE;
+    return event->kind == WINDOW_KEY && !action_of(event);
 }
 
 static void add_drags(PlayInput *input, double metres, HandInput *hand)
@@ -321,13 +325,14 @@ static void add_drags(PlayInput *input, double metres, HandInput *hand)
 static void add_keys(const PlayInput *input, HandInput *hand)
 {
     const int modifiers = modifiers_of(input->down);
-    for (const PlayHeldKey *held = play_held_keys; held->key; held++)
-        if (input->down[held->key] && held->modifiers == modifiers)
-            (held->command == PLAY_MOVE_KEYS ? hand->move_rate : hand->tilt_rate)[held->axis] += held->sign;
+    const HeldKey *key;
+    for (int i = 0; (key = user_action_held_key(i)); i++)
+        if (input->down[key->key] && key->modifiers == modifiers)
+            *(double *)(void *)((char *)hand + key->rate) += key->sign;
 }
 
 /* GLFW's y axis of a stick points down. */
-static void add_gamepad(PlayInput *input, const WindowGamepad *pad, HandInput *hand, ActionQueue *actions)
+static void add_gamepad(PlayInput *input, const WindowGamepad *pad, HandInput *hand, RequestQueue *requests)
 {
     double left[2], right[2];
     hand_stick(pad->left, left);
@@ -340,20 +345,20 @@ static void add_gamepad(PlayInput *input, const WindowGamepad *pad, HandInput *h
     }
     const unsigned pressed = pad->buttons & ~input->pad_buttons;
     for (int button = 0; button <= GLFW_GAMEPAD_BUTTON_LAST; button++) {
-        const PlayCommand command = pressed >> button & 1 ? play_command_of_gamepad(button) : PLAY_NONE;
-        if (command != PLAY_NONE)
-            action_add_command(actions, command);
+        const UserAction *action = pressed >> button & 1 ? user_action_of_gamepad(button) : NULL;
+        if (action)
+            request_add_action(requests, action);
     }
 }
 
 double input_fill_hand(PlayInput *input, const WindowGamepad *pad, double metres, HandInput *hand,
-                       ActionQueue *actions)
+                       RequestQueue *requests)
 {
     const double event_ms = input->hand_event_ms;
     add_drags(input, metres, hand);
     add_keys(input, hand);
     if (pad)
-        add_gamepad(input, pad, hand, actions);
+        add_gamepad(input, pad, hand, requests);
     input->pad_buttons = pad ? pad->buttons : 0;
     input->hand_event_ms = 0;
     return event_ms;

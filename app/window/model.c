@@ -4,8 +4,8 @@
 #include "app/files/pictures.h"
 #include "app/scene/scene.h"
 #include "sim/flow/flow.h"
-#include "sim/gpu/gl_context.h"
-#include "sim/start/seed.h"
+#include "sim/gpu/gl.h"
+#include "sim/start/start.h"
 #include "slosh/error.h"
 #include "slosh/world.h"
 
@@ -73,18 +73,18 @@ static bool same_bytes(const void *a, const void *b, size_t size)
    box's pose of that time for the hand. */
 static void follow_travels(PlayModel *model)
 {
-    const SimulatorHistory *past = &model->status.past;
+    const SimulatorHistory *timeline = &model->status.timeline;
     WorldDef def;
-    if (past->travels == model->travels)
+    if (timeline->travels == model->travels)
         return;
-    model->travels = past->travels;
+    model->travels = timeline->travels;
     simulator_settings(model->open.simulator, &def);
     if (!same_bytes(&def, &model->open.scene.world, sizeof def)) {
         model->open.scene.world = def;
         play_scene_advise(&model->open, NULL, NULL);
     }
-    box_control_set_target(model->control, &past->target);
-    model->shut = model->status.shut;
+    box_control_set_target(model->control, &timeline->target);
+    model->closed_gates = model->status.closed_gates;
 }
 
 /* Takes over the solids from the solver. */
@@ -246,7 +246,7 @@ static void adopt(PlayModel *model, const PlayScene *opened)
     model->has_particles = false;
     post_open(model);
     model->saves = model->messages = model->travels = model->solids = 0;
-    model->shut = flow_shut(&opened->scene.world);
+    model->closed_gates = flow_closed_gates(&opened->scene.world);
     model->fixed_reported = model->asked_acceleration = false;
     model->last_script = SCRIPT_NONE;
     model->scenes_opened++;
@@ -376,7 +376,7 @@ void model_reset(PlayModel *model)
     keep_session(model);
     box_control_close(model->control); /* a device report now would move the box, and would be lost */
     model->open.source->reset(&model->open);
-    model->shut = flow_shut(&model->open.scene.world);
+    model->closed_gates = flow_closed_gates(&model->open.scene.world);
     post_open(model);
 }
 
@@ -496,23 +496,25 @@ void model_save(PlayModel *model)
         notice_error(model->notice, "the session before is still being saved; try again in a moment");
 }
 
-static void advise_anew(PlayModel *model, const char *setting)
+static void advise_anew(PlayModel *model, const SimCommand *command)
 {
+    char path[SETTING_TEXT_SIZE];
     Notes fresh = {.count = 0};
-    play_scene_advise(&model->open, setting, &fresh);
+    sim_command_path(command, path);
+    play_scene_advise(&model->open, path, &fresh);
     for (int i = fresh.count - 1; i >= 0; i--)
         notice_tell(model->notice, "%s", fresh.line[i]);
 }
 
-/* Moves to a new backend. */
-static void move(PlayModel *model, const SimCommand *command, const WorldDef *before)
+/* Moves to a new backend, or keeps accelerations. */
+static void move(PlayModel *model, const SimCommand *command, const char before[NAME_SIZE], bool kept)
 {
     Error error = {{0}};
     WorldDef *world = &model->open.scene.world;
     if (play_scene_set_backend(&model->open, command, &error))
         return;
-    memcpy(world->backend, before->backend, NAME_SIZE);
-    world->acceleration = before->acceleration;
+    memcpy(world->backend, before, NAME_SIZE);
+    world->acceleration = kept;
     notice_error(model->notice, error.message);
 }
 
@@ -528,33 +530,44 @@ void model_loop(PlayModel *model)
     notice_tell(model->notice, status.loop ? "stops at the end" : "begins anew at the end");
 }
 
-/* Sets a key of a recorded run: keys of the solver are refused, and views need data of the file. */
-static bool set_recorded(PlayModel *model, const char *setting)
+/* A recorded run has no keys of a solver to set. */
+static bool may_concern(const PlayModel *model, const SimCommand *command, bool concerns_world, Error *error)
 {
-    Error error = {{0}};
-    bool concerns_world;
-    PlayScene *open = &model->open;
-    Scene changed = open->scene;
-    const bool ok =
-        scene_set_live(&changed, setting, &concerns_world, &error) &&
-        (!concerns_world || error_set(&error, "%s: a recorded run stays as it was simulated", setting)) &&
-        model_has(model, &changed.view, &error);
-    if (ok)
-        open->scene = changed;
-    else
-        notice_error(model->notice, error.message);
-    return ok;
+    char text[SETTING_TEXT_SIZE];
+    if (!concerns_world || model->open.source->simulates)
+        return true;
+    sim_command_setting(command, text);
+    return error_set(error, "%s: a recorded run stays as it was simulated", text);
 }
 
-/* Sets a key of the scene; a view of a recorded run is refused if the run lacks its data. */
-static bool set_scene(PlayModel *model, const char *setting, bool *concerns_world, Error *error)
+static bool set_text(PlayModel *model, const SimCommand *command, bool *concerns_world, Error *error)
 {
     Scene *scene = &model->open.scene;
     Scene changed = *scene;
-    if (!scene_set_live(&changed, setting, concerns_world, error) || !model_has(model, &changed.view, error))
+    if (!scene_set_live(&changed, command->setting, concerns_world, error) ||
+        !may_concern(model, command, *concerns_world, error) || !model_has(model, &changed.view, error))
         return false;
     *scene = changed;
     return true;
+}
+
+static bool set_value(PlayModel *model, const SimCommand *command, bool *concerns_world, Error *error)
+{
+    Scene *scene = &model->open.scene;
+    SettingBefore before;
+    if (!scene_set_value(scene, &command->value, &before, concerns_world, error))
+        return false;
+    if (may_concern(model, command, *concerns_world, error) && model_has(model, &scene->view, error))
+        return true;
+    scene_set_back(scene, &command->value, &before);
+    return false;
+}
+
+/* Sets a key of the scene; a view without data is refused. */
+static bool set_scene(PlayModel *model, const SimCommand *command, bool *concerns_world, Error *error)
+{
+    return command->kind == SIM_VALUE ? set_value(model, command, concerns_world, error)
+                                      : set_text(model, command, concerns_world, error);
 }
 
 /* Checks that the backend may change: not with solvers side by side, as backends decide the stepping
@@ -567,36 +580,61 @@ static bool may_move(const PlayModel *model, const SimCommand *command, Error *e
                      command->setting);
 }
 
-bool model_set(PlayModel *model, const char *setting)
+/* Sends a change of the scene on to the solvers. */
+static void send_change(PlayModel *model, const SimCommand *command)
+{
+    compare_send(model->open.compared, command);
+    if (!sim_command_moves(command) && !simulator_send(model->open.simulator, command))
+        notice_error(model->notice, "too many changes wait for the next step; let the time run");
+}
+
+static bool set(PlayModel *model, const SimCommand *command)
 {
     Error error = {{0}};
     bool concerns_world;
-    if (!model->open.source->simulates)
-        return set_recorded(model, setting);
-    SimCommand command = {.kind = SIM_SET};
-    const WorldDef before = model->open.scene.world;
-    snprintf(command.setting, sizeof command.setting, "%s", setting);
-    if (!may_move(model, &command, &error) || !set_scene(model, setting, &concerns_world, &error)) {
+    const WorldDef *world = &model->open.scene.world;
+    char backend[NAME_SIZE];
+    const bool kept = world->acceleration;
+    memcpy(backend, world->backend, NAME_SIZE);
+    if (!may_move(model, command, &error) || !set_scene(model, command, &concerns_world, &error)) {
         notice_error(model->notice, error.message);
         return false;
     }
+    if (!model->open.source->simulates)
+        return true;
     simulator_set_realtime(model->open.simulator, model->open.scene.realtime);
-    advise_anew(model, setting);
+    advise_anew(model, command);
     if (concerns_world)
-        compare_send(model->open.compared, &command);
-    if (sim_command_moves(&command))
-        move(model, &command, &before);
-    else if (concerns_world && !simulator_send(model->open.simulator, &command))
-        notice_error(model->notice, "too many changes wait for the next step; let the time run");
+        send_change(model, command);
+    if (sim_command_moves(command))
+        move(model, command, backend, kept);
     return true;
+}
+
+bool model_set(PlayModel *model, const char *setting)
+{
+    SimCommand command = {.kind = SIM_SET};
+    snprintf(command.setting, sizeof command.setting, "%s", setting);
+    return set(model, &command);
+}
+
+/* A change with a new world is sent as text. */
+bool model_set_value(PlayModel *model, const SettingValue *value)
+{
+    SimCommand command = {.kind = SIM_VALUE, .value = *value};
+    if (sim_command_moves(&command)) {
+        command.kind = SIM_SET;
+        setting_value_text(value, command.setting);
+    }
+    return set(model, &command);
 }
 
 void model_set_gates(PlayModel *model, uint64_t gates)
 {
-    const SimCommand command = {.kind = SIM_SHUT, .shut = gates};
+    const SimCommand command = {.kind = SIM_GATES, .closed_gates = gates};
     if (!model->open.source->simulates)
         return;
-    model->shut = gates;
+    model->closed_gates = gates;
     compare_send(model->open.compared, &command);
     simulator_send(model->open.simulator, &command);
 }

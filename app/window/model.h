@@ -5,16 +5,15 @@
 #include "app/window/window.h"
 
 #include "app/files/pictures.h"
-#include "app/input/box_control.h"
+#include "app/input/input.h"
 #include "app/run/compare/compare.h"
 #include "app/run/playback/playback.h"
 #include "app/run/recording/recording.h"
 #include "app/run/simulator.h"
-#include "app/scene/save.h"
 #include "app/scene/scene.h"
-#include "render/particles/upload.h"
+#include "render/particles/particles.h"
+#include "sim/gpu/gl.h"
 #include "sim/gpu/particle_buffers.h"
-#include "sim/gpu/timer.h"
 #include "slosh/error.h"
 
 #include <stdatomic.h>
@@ -65,7 +64,7 @@ typedef struct StateSource {
     void (*reset)(struct PlayScene *open); /* to the start */
 } StateSource;
 
-extern const StateSource state_source_simulator; /* source_simulator.c */
+extern const StateSource state_source_simulator; /* play_scene.c */
 extern const StateSource state_source_recorded;  /* source_recorded.c */
 
 /* The open scene: its file, and the source of its states: a simulator with an upload to the GPU, or a player
@@ -92,9 +91,9 @@ typedef struct PlayScene {
 bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *settings, Notes *notes,
                      Error *error);
 
-/* Updates the notes on the present scene after a setting ("path=value"; NULL: after reading); new notes also
-   go into `fresh` (may be NULL). */
-void play_scene_advise(PlayScene *open, const char *setting, Notes *fresh);
+/* Updates the notes on the present scene after a change of the key at `path` (NULL: after reading); new notes
+   also go into `fresh` (may be NULL). */
+void play_scene_advise(PlayScene *open, const char *path, Notes *fresh);
 
 /* Starts the simulation; needs the context. `how`: all fields except scene, recording and upload. */
 bool play_scene_start(PlayScene *open, const SimulatorSetup *how, Error *error);
@@ -157,7 +156,7 @@ typedef struct PlayModel {
     size_t seeded;            /* count of particles at the scene's start */
     unsigned saves, messages; /* reported so far */
     ScriptState last_script;  /* last reported */
-    uint64_t shut;            /* gates to close: world_shut_gates */
+    uint64_t closed_gates;    /* gates to close: world_close_gates */
     unsigned travels;         /* last handled SimulatorHistory.travels */
     unsigned solids;          /* SimulatorStatus.solids */
     atomic_bool pulled;       /* the user tried to move the box of a recorded run */
@@ -213,6 +212,9 @@ void model_set_speed(PlayModel *model, double factor); /* multiplies the present
 /* Sets "path=value" of a live key: in the scene at once, for the solver from its next step on. Returns false
    without changes. */
 bool model_set(PlayModel *model, const char *setting);
+
+/* The same with a value. */
+bool model_set_value(PlayModel *model, const SettingValue *value);
 
 /* Closes the gates of emitters and drains in `gates` from the next step on, and opens the rest. */
 void model_set_gates(PlayModel *model, uint64_t gates);

@@ -1,8 +1,7 @@
-#include "app/base/output.h"
+#include "app/base/file.h"
 #include "app/files/pictures.h"
 #include "app/window/play_private.h"
-#include "sim/gpu/gl_context.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 #include "slosh/world.h"
 
 #include <epoxy/gl.h>

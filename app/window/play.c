@@ -2,11 +2,12 @@
 #include "app/window/play.h"
 
 #include "app/base/program.h"
-#include "app/input/device/devices.h"
+#include "app/input/device/device.h"
+#include "app/run/offscreen.h"
 #include "app/scene/import/import.h"
 #include "app/window/model.h"
 #include "app/window/play_private.h"
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 #include "slosh/world.h"
 
 #include <math.h>
@@ -53,7 +54,7 @@ static bool make_window(PlaySession *session, Error *error)
     play->window = window_create("slosh", session->setup->width, session->setup->height, error);
     if (!play->window)
         return false;
-    fprintf(stderr, "renderer: %s\n", window_renderer(play->window));
+    renderer_tell(window_renderer(play->window));
     gl_debug_install();
     picture_read_display(&play->picture, play->window);
     gl_timer_between(play->picture.pauses, events_between_passes, play);
@@ -78,7 +79,7 @@ static bool start(PlaySession *session, Error *error)
     play->overlay.panel =
         (float)play->picture.width > PANEL_FROM_EM * letters; /* beside the fluid, not above */
     play->overlay.opener = !play->overlay.panel;
-    return actions_open_scene(play, setup->scene, setup->settings, error) &&
+    return requests_open_scene(play, setup->scene, setup->settings, error) &&
            picture_start(&play->picture, &play->model.open, letters, error) &&
            play_overlay_start(&play->overlay, letters, error);
 }
@@ -142,7 +143,7 @@ static void pause_or_draw(Play *play)
 /* Reports the figures on request. */
 static void tell_figures(PlaySession *session)
 {
-    static PlayFigures figures;
+    PlayFigures figures;
     Error error = {{0}};
     play_figures_fill(&session->play, &figures);
     if (!session->setup->json)

@@ -50,9 +50,10 @@ static bool mouse_is_near(const PlayOverlay *overlay)
 /* True while paused or in the past, with the mouse near, or if always shown. */
 static bool shows_timeline(const PlayOverlay *overlay, const PlayModel *model)
 {
-    const SimulatorHistory *past = &model->status.past;
-    return model->has_particles && past->kept &&
-           (overlay->timeline || model->paused || past->behind || overlay->scrubs || mouse_is_near(overlay));
+    const SimulatorHistory *timeline = &model->status.timeline;
+    return model->has_particles && timeline->enabled &&
+           (overlay->timeline || model->paused || timeline->rewound || overlay->scrubs ||
+            mouse_is_near(overlay));
 }
 
 /* True if the opener button replaces the panel. */
@@ -159,7 +160,7 @@ static void collect(PlayOverlay *overlay, PlayModel *model, const PlayOverlayFac
                         .gauge_count = status->gauge_count,
                         .probes = status->probes,
                         .probe_count = status->probe_count,
-                        .shut = model->shut,
+                        .closed_gates = model->closed_gates,
                         .box_most =
                             fmax(model->file_scene.world.box_size[0], model->file_scene.world.box_size[1]),
                         .particles = particles->count,
@@ -209,38 +210,38 @@ static void follow_devices(PlayOverlay *overlay, BoxControl *control, double now
     overlay->bars_ms = now;
 }
 
-_Static_assert((int)PANEL_SETTING_SIZE == SIM_SETTING_SIZE, "what the panel asks for fits into a command");
-
-static void queue_events(const PanelEvents *events, ActionQueue *actions)
+static void queue_events(const PanelEvents *events, RequestQueue *requests)
 {
-    for (int i = 0; i < events->setting_count; i++) {
-        Action action = {.kind = ACTION_SETTING};
-        snprintf(action.text, sizeof action.text, "%s", events->settings[i]);
-        action_add(actions, &action);
+    for (int i = 0; i < events->value_count; i++)
+        request_add(requests, &(Request){.kind = REQUEST_VALUE, .value = events->values[i]});
+    if (*events->term) {
+        Request request = {.kind = REQUEST_SETTING};
+        snprintf(request.text, sizeof request.text, "%s", events->term);
+        request_add(requests, &request);
     }
     if (events->tuned)
-        action_add(actions, &(Action){.kind = ACTION_TUNE_DEVICE,
-                                      .device = events->tuned,
-                                      .amount = {events->gain, events->dead_zone}});
+        request_add(requests, &(Request){.kind = REQUEST_TUNE_DEVICE,
+                                         .device = events->tuned,
+                                         .amount = {events->gain, events->dead_zone}});
     if (events->gated)
-        action_add(actions, &(Action){.kind = ACTION_SET_GATES, .gates = events->shut});
+        request_add(requests, &(Request){.kind = REQUEST_SET_GATES, .gates = events->closed_gates});
     if (events->sized)
-        action_add(actions, &(Action){.kind = ACTION_RESIZE_BOX,
-                                      .amount = {events->size[0], events->size[1], events->size[2]}});
+        request_add(requests, &(Request){.kind = REQUEST_RESIZE_BOX,
+                                         .amount = {events->size[0], events->size[1], events->size[2]}});
     if (*events->restart) {
-        Action action = {.kind = ACTION_RESTART};
-        snprintf(action.text, sizeof action.text, "%s", events->restart);
-        action_add(actions, &action);
+        Request request = {.kind = REQUEST_RESTART};
+        snprintf(request.text, sizeof request.text, "%s", events->restart);
+        request_add(requests, &request);
     }
-    if (events->command != PLAY_NONE)
-        action_add_command(actions, (PlayCommand)events->command);
+    if (events->action)
+        request_add_action(requests, events->action);
 }
 
 /* Requests the new count of particles once after a drag, as the scene restarts. */
-static void queue_particles(PlayOverlay *overlay, ActionQueue *actions)
+static void queue_particles(PlayOverlay *overlay, RequestQueue *requests)
 {
     if (overlay->particles > 0 && overlay->held == 0)
-        action_add(actions, &(Action){.kind = ACTION_PARTICLES, .amount = {overlay->particles}});
+        request_add(requests, &(Request){.kind = REQUEST_PARTICLES, .amount = {overlay->particles}});
     overlay->particles = overlay->held ? overlay->particles : 0;
 }
 
@@ -253,11 +254,11 @@ static double script_done(const SimulatorStatus *status)
 }
 
 static void draw_timeline(PlayOverlay *overlay, const PlayModel *model, const PlayOverlayFacts *facts,
-                          ActionQueue *actions)
+                          RequestQueue *requests)
 {
-    const SimulatorHistory *past = &model->status.past;
-    const TimelineData data = {.from = past->from,
-                               .to = past->to,
+    const SimulatorHistory *timeline = &model->status.timeline;
+    const TimelineData data = {.from = timeline->from,
+                               .to = timeline->to,
                                .now = model->particles.time,
                                .playing = !model->paused,
                                .done = script_done(&model->status),
@@ -267,18 +268,18 @@ static void draw_timeline(PlayOverlay *overlay, const PlayModel *model, const Pl
     timeline_draw(overlay->ui, facts->width, facts->height, left < 0.6F * (float)facts->width ? left : 0,
                   &data, &events);
     if (events.wants_time && (!overlay->scrubs || events.time != overlay->wished))
-        action_add(actions, &(Action){.kind = ACTION_GO_TO_TIME, .amount = {events.time}});
+        request_add(requests, &(Request){.kind = REQUEST_GO_TO_TIME, .amount = {events.time}});
     overlay->scrubs = events.wants_time;
     overlay->wished = events.time;
-    if (events.command != PLAY_NONE)
-        action_add_command(actions, (PlayCommand)events.command);
+    if (events.action)
+        request_add_action(requests, events.action);
 }
 
 /* Draws the list; a pressed scene opens, and the list closes. */
 static void draw_scenes(PlayOverlay *overlay, const PlayModel *model, const PlayOverlayFacts *facts,
-                        ActionQueue *actions)
+                        RequestQueue *requests)
 {
-    Action action = {.kind = ACTION_OPEN_SCENE};
+    Request request = {.kind = REQUEST_OPEN_SCENE};
     PanelCard *cards = overlay->cards.cards;
     for (int i = 0; i < overlay->cards.count; i++)
         cards[i].lit = strcmp(cards[i].path, model->open.scene.path) == 0;
@@ -286,9 +287,9 @@ static void draw_scenes(PlayOverlay *overlay, const PlayModel *model, const Play
         panel_scenes_draw(overlay->ui, facts->width, facts->height, cards, overlay->cards.count);
     if (pressed < 0)
         return;
-    snprintf(action.text, sizeof action.text, "%s", cards[pressed].path);
-    action_add(actions, &action);
-    action_add_command(actions, PLAY_SCENES);
+    snprintf(request.text, sizeof request.text, "%s", cards[pressed].path);
+    request_add(requests, &request);
+    request_add_action(requests, &action_scenes);
 }
 
 bool play_overlay_toggle_scenes(PlayOverlay *overlay, const PlayModel *model, Error *error)
@@ -317,9 +318,9 @@ static float title_height(const PlayOverlay *overlay, const PlayModel *model)
 
 /* Draws the widgets, if any has changed. */
 static void draw_widgets(PlayOverlay *overlay, PlayModel *model, const PlayOverlayFacts *facts,
-                         ActionQueue *actions)
+                         RequestQueue *requests)
 {
-    PanelEvents events = {.command = PLAY_NONE};
+    PanelEvents events = {.action = NULL};
     float pictures[FRAME_TIMES_HISTORY];
     PanelData data;
     if (!ui_begin(overlay->ui, facts->width, facts->height, &overlay->input.now))
@@ -332,18 +333,18 @@ static void draw_widgets(PlayOverlay *overlay, PlayModel *model, const PlayOverl
     if (overlay->help)
         panel_help_draw(overlay->ui, facts->width, facts->height);
     if (overlay->scenes)
-        draw_scenes(overlay, model, facts, actions);
+        draw_scenes(overlay, model, facts, requests);
     if (shows_opener(overlay) && panel_opener_draw(overlay->ui, title_height(overlay, model)))
-        events.command = PLAY_PANEL;
-    queue_events(&events, actions);
+        events.action = &action_panel;
+    queue_events(&events, requests);
     overlay->particles = events.particles > 0 ? events.particles : overlay->particles;
     if (shows_timeline(overlay, model))
-        draw_timeline(overlay, model, facts, actions);
+        draw_timeline(overlay, model, facts, requests);
     overlay->input.now.changed = false;
 }
 
 bool play_overlay_draw(PlayOverlay *overlay, PlayModel *model, const PlayOverlayFacts *facts,
-                       ActionQueue *actions)
+                       RequestQueue *requests)
 {
     const double now = wall_ms();
     const bool timeline = shows_timeline(overlay, model);
@@ -365,8 +366,8 @@ bool play_overlay_draw(PlayOverlay *overlay, PlayModel *model, const PlayOverlay
     overlay->drawn_ms = now;
     overlay->shown = shown;
     widget_input_next(&overlay->input);
-    draw_widgets(overlay, model, facts, actions);
-    queue_particles(overlay, actions);
+    draw_widgets(overlay, model, facts, requests);
+    queue_particles(overlay, requests);
     ui_end(overlay->ui);
     return overlay->input.count > 0 || ui_needs_redraw(overlay->ui);
 }

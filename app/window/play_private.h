@@ -6,20 +6,17 @@
 #include "app/window/window.h"
 
 #include "app/files/pictures.h"
-#include "app/input/hand.h"
-#include "app/input/touch.h"
+#include "app/input/input.h"
 #include "app/scene/scene.h"
-#include "app/window/frame_times.h"
-#include "app/window/input.h"
 #include "app/window/model.h"
 #include "app/window/panel/panel.h"
 #include "app/window/play.h"
-#include "app/window/scene_browser.h"
-#include "render/frame/camera.h"
-#include "render/frame/text.h"
+#include "render/frame/frame.h"
+#include "render/frame/passes.h"
 #include "render/frame/view.h"
-#include "render/panels.h"
-#include "sim/gpu/timer.h"
+#include "render/renderer.h"
+#include "render/ui/text.h"
+#include "sim/gpu/gl.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -45,7 +42,7 @@ typedef struct FileWatch {
 } FileWatch;
 
 /* Several views of the window, each in a panel of its own. The scene's `view` is the chosen view, for camera,
-   keys and settings; `views` has all shown views including the chosen one, and view_count is 0 while only one
+   keys and settings. `views` has all shown views including the chosen one, and view_count is 0 while only one
    view is shown. */
 
 /* Zero-initialise before use. */
@@ -78,7 +75,7 @@ const ViewDef *views_def(const PlayViews *views, const Scene *scene, int panel);
 /* The panel of the chosen view. */
 int views_panel(const PlayViews *views, const Scene *scene);
 
-/* The window's camera: as in the scene, or in the user's hand (app/input/hand.h). Changes the view of the
+/* The window's camera: as in the scene, or in the user's hand (app/input/input.h). Changes the view of the
    open scene; callers must notify the picture. */
 
 /* Zero-initialise before use. */
@@ -110,14 +107,14 @@ void camera_moved(const PlayCamera *camera, PlayModel *model);
 /* Restores the camera of the file. */
 void camera_home(PlayCamera *camera, PlayModel *model);
 
-/* The handles in the picture (render/frame/camera.h): the mouse finds, takes and drags handles, keys move the
+/* The handles in the picture (render/frame/frame.h): the mouse finds, takes and drags handles, keys move the
    view's plane in steps. The results are live settings, like the panel's. A held handle keeps the mouse from
    the camera and the box.
 
    Each panel has the handles of its own view. The mouse acts in the panel below the cursor; a held handle
    belongs to the chosen view.
 
-   When walls may be taken, walls have handles too, in views of the scene's own state: app/input/touch.h.
+   When walls may be taken, walls have handles too, in views of the scene's own state: app/input/input.h.
 
    Handles appear only in the window, not in screenshots and videos. */
 
@@ -355,7 +352,7 @@ bool play_overlay_takes(const PlayOverlay *overlay, const PlayModel *model, cons
 /* Draws the shown parts. Returns true if the next picture will still change: unhandled input, or moving
    windows. */
 bool play_overlay_draw(PlayOverlay *overlay, PlayModel *model, const PlayOverlayFacts *facts,
-                       ActionQueue *actions);
+                       RequestQueue *requests);
 
 /* Opens or closes the list of scenes. Returns false with the reason if the list has no pictures; the list
    opens anyway. */
@@ -393,7 +390,7 @@ typedef struct Play {
     Window *window;
     BoxControl *control;
     PlayInput input;
-    ActionQueue actions; /* executed between two pictures */
+    RequestQueue requests; /* executed between two pictures */
     PlayModel model;
     PlayCamera camera;
     HandleTool handle_tool;
@@ -457,7 +454,8 @@ static inline PanelViewport play_viewport(const Play *play, int panel)
 }
 
 /* The files that see the whole window, in the order of their calls: each calls only files before it.
-   hand_input.c, actions.c, scene_watch.c, events.c, draw.c, play.c. */
+   hand_input.c, requests.c, actions_hand.c, actions_view.c, actions_time.c, scene_watch.c, events.c, draw.c,
+   play.c. */
 
 /* ---- hand_input.c ---- */
 
@@ -477,16 +475,34 @@ void play_remove_solid(Play *play);
 void play_set_gravity(Play *play, const double gravity[3]);
 void play_tilt_gravity(Play *play, const double amount[2]);
 
-/* ---- actions.c ---- */
+/* ---- requests.c ---- */
 
 /* Executes all waiting requests in order. */
-void actions_execute(Play *play);
+void requests_execute(Play *play);
 
 /* Opens a scene; on failure the old scene stays. */
-bool actions_open_scene(Play *play, const char *scene, const SceneSettings *settings, Error *error);
+bool requests_open_scene(Play *play, const char *scene, const SceneSettings *settings, Error *error);
+
+/* Resets hand, touch, camera and picture; call after a scene was opened by the model. */
+void play_follow_scene(Play *play);
+
+/* Call after a change of the chosen view. */
+void play_view_changed(Play *play);
+
+/* Chooses the view at a position in the picture, pixels. */
+void play_choose_view(Play *play, const double at[2]);
+
+/* play_grab_camera takes the camera into the hand; play_camera_moved: call after a change of its orbit. */
+void play_grab_camera(Play *play);
+void play_camera_moved(Play *play);
 
 /* Call after scene_restart or scene_reload: `begun`: the scene was restarted; `views`: its views changed. */
-void actions_scene_changed(Play *play, bool begun, bool views);
+void requests_scene_changed(Play *play, bool begun, bool views);
+
+/* ---- actions_hand.c, actions_view.c, actions_time.c: the actions of app/input/action_list.h ---- */
+
+/* The mouse touches the fluid, or turns the camera again; tells the user. */
+void play_turn_touch(Play *play, bool on);
 
 /* ---- scene_watch.c ---- */
 

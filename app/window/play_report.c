@@ -1,10 +1,10 @@
 #include "app/base/file.h"
 #include "app/bench/bench.h"
 #include "app/run/session.h"
-#include "app/scene/keys.h"
+#include "app/scene/scene.h"
 #include "app/window/play.h"
 #include "app/window/play_private.h"
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 #include "slosh/world.h"
 
 #include <math.h>

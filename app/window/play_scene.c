@@ -2,7 +2,6 @@
 #include "app/run/compare/compare.h"
 #include "app/run/session.h"
 #include "app/scene/scene.h"
-#include "app/scene/scene_files.h"
 #include "app/window/model.h"
 #include "render/renderer.h"
 
@@ -12,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Makes the upload for the particles, unless the backend is on the GPU; for source_simulator.c. */
+/* Makes the upload for the particles, unless the backend is on the GPU. */
 static bool play_scene_make_upload(PlayScene *open, Error *error);
 
 static bool start(PlayScene *open, const SimulatorSetup *how, Error *error)
@@ -222,20 +221,18 @@ bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *set
 }
 
 /* Adds a note on a changed key without effect, for as long as the scene is open. */
-static void advise_unused(PlayScene *open, const char *setting)
+static void advise_unused(PlayScene *open, const char *path)
 {
-    char path[128];
-    snprintf(path, sizeof path, "%.*s", (int)strcspn(setting, "="), setting);
     scene_advise_key(&open->scene, path, &open->notes);
     open->notes.lasting = open->notes.count;
 }
 
-void play_scene_advise(PlayScene *open, const char *setting, Notes *fresh)
+void play_scene_advise(PlayScene *open, const char *path, Notes *fresh)
 {
     const Notes before = open->notes;
     open->notes.count = open->notes.lasting;
-    if (setting)
-        advise_unused(open, setting);
+    if (path)
+        advise_unused(open, path);
     scene_advise(NULL, &open->scene, &open->notes);
     for (int i = 0; fresh && i < open->notes.count; i++)
         if (!notes_have(&before, open->notes.line[i]))

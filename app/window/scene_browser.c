@@ -1,10 +1,9 @@
-#include "app/window/scene_browser.h"
-
 #include "app/files/pictures.h"
-#include "app/run/compare/panel_pictures.h"
-#include "app/scene/scene_files.h"
+#include "app/run/compare/compare.h"
+#include "app/scene/scene.h"
 #include "app/scene/yaml/yaml.h"
-#include "sim/start/seed.h"
+#include "app/window/play.h"
+#include "sim/start/start.h"
 #include "slosh/world.h"
 
 #include <dirent.h>
@@ -171,13 +170,13 @@ static bool load(const char *path, Scene *scene, Error *error)
 
 static bool simulate(Session *session, Error *error)
 {
-    const double time = has_emitter(&session->scene.world) ? TIME_FILLED_S : TIME_S;
+    const double time = has_emitter(&session->run.scene.world) ? TIME_FILLED_S : TIME_S;
     double work = 0;
-    while (session->info.time < time && work < WORK_MOST && session->info.step < STEPS_MOST) {
-        const uint64_t before = session->info.step;
+    while (session->run.info.time < time && work < WORK_MOST && session->run.info.step < STEPS_MOST) {
+        const uint64_t before = session->run.info.step;
         if (!session_step(session, error))
             return false;
-        work += (double)session->info.count * (double)(session->info.step - before);
+        work += (double)session->run.info.count * (double)(session->run.info.step - before);
     }
     return true;
 }
@@ -185,10 +184,10 @@ static bool simulate(Session *session, Error *error)
 static bool draw(const Session *session, Image *image, Error *error)
 {
     PanelPictures panel_pictures = {.source_count = 0};
-    const PicturePanel panel = {.session = session, .view = &session->scene.view};
+    const PicturePanel panel = {.session = session, .view = &session->run.scene.view};
     const bool ok =
         panel_pictures_open(&panel_pictures, &panel, 1, false, THUMBNAIL_WIDTH, THUMBNAIL_HEIGHT, error) &&
-        panel_pictures_take(&panel_pictures, session->info.time, error) &&
+        panel_pictures_take(&panel_pictures, session->run.info.time, error) &&
         panel_pictures_draw(&panel_pictures, error);
     if (ok) {
         *image = panel_pictures.image;
@@ -204,7 +203,7 @@ bool thumbnail_make(const char *path, Headless *context, Image *image, Error *er
     if (!session)
         return error_set(error, "%s: no memory", path);
     *session = (Session){.began_ms = wall_ms(), .context = context, .borrows = true};
-    const bool ok = load(path, &session->scene, error) && session_start(session, -1, true, error) == 0 &&
+    const bool ok = load(path, &session->run.scene, error) && session_start(session, -1, true, error) == 0 &&
                     simulate(session, error) && draw(session, image, error);
     session_close(session);
     free(session);
@@ -271,7 +270,7 @@ static bool find_cache(BrowserFolder *from, Error *error)
     return found;
 }
 
-static void add_shelf(SceneBrowser *cards, const char *folder)
+static void add_folder(SceneBrowser *cards, const char *folder)
 {
     BrowserFolder *from = &cards->folders[cards->folder_count];
     Error none;
@@ -289,13 +288,13 @@ static void find_shelves(SceneBrowser *cards, const char *scene)
     const char *slash = strrchr(scene, '/');
     if (slash)
         snprintf(folder, sizeof folder, "%.*s", (int)(slash - scene), scene);
-    add_shelf(cards, NULL);
+    add_folder(cards, NULL);
     const SceneList *own = &cards->folders[0].list;
     const size_t length = strlen(folder);
     if (own->count > 0 && strncmp(own->rows[0].path, folder, length) == 0 &&
         strchr(own->rows[0].path + length + 1, '/') == NULL)
         return;
-    add_shelf(cards, folder);
+    add_folder(cards, folder);
 }
 
 static bool make_cards(SceneBrowser *cards, Error *error)

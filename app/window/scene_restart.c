@@ -1,7 +1,5 @@
 #include "app/files/pictures.h"
-#include "app/scene/keys.h"
-#include "app/scene/save.h"
-#include "app/scene/scene_files.h"
+#include "app/scene/scene.h"
 #include "app/window/model.h"
 
 #include <stdio.h>
@@ -42,7 +40,8 @@ static bool scene_edits_find(const PlayModel *model, SceneEdits *out, Error *err
     if (!parse(model, text, size, &settings, &out->filed, error))
         return false;
     out->now = model->open.scene;
-    world_def_apply_moves(&out->now.world, model->shut);
+    if (!world_def_apply_moves(&out->now.world, model->closed_gates, error))
+        return false;
     restore_views(&out->filed, &out->now);
     scene_difference(&out->filed, &out->now, &out->changes);
     return true;
@@ -222,7 +221,7 @@ static bool find_wanted(const PlayModel *model, SceneReload *reload, Error *erro
     return true;
 }
 
-static bool read_file(const PlayModel *model, SceneReload *reload, Error *error)
+static bool read_reloaded(const PlayModel *model, SceneReload *reload, Error *error)
 {
     const Recording *recording = &model->open.recording;
     SceneSettings settings = recording->settings;
@@ -373,7 +372,7 @@ ReloadResult scene_reload(PlayModel *model, bool others, char words[320], Error 
     }
     if (!model_end_previous(model, 0)) { /* the previous scene is still ending */
         result = RELOAD_LATER;
-    } else if (read_file(model, reload, error)) {
+    } else if (read_reloaded(model, reload, error)) {
         describe_changes(reload, others, words);
         const SceneDifference *changed = &reload->changed;
         if (!others && changed->settings.count == 0) /* ignores changes by hand */

@@ -1,4 +1,4 @@
-#include "app/scene/scene_files.h"
+#include "app/scene/scene.h"
 #include "app/window/model.h"
 #include "app/window/play_private.h"
 #include "slosh/world.h"
@@ -138,7 +138,7 @@ void scene_watch_poll(Play *play)
         tell_broken(play, &error);
         return;
     }
-    actions_scene_changed(play, result == RELOAD_RESTARTED, result == RELOAD_VIEW);
+    requests_scene_changed(play, result == RELOAD_RESTARTED, result == RELOAD_VIEW);
     tell_reload(play, result, words);
     watch_scene_files(scene_watch, model); /* the scene may name different files now */
 }

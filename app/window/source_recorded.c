@@ -42,7 +42,8 @@ static void status(PlayScene *open, SimulatorStatus *out)
         .particles = player.prefetch.particles,
         .simulated_s = player.played_s,
         .messages = player.failures,
-        .past = {.kept = true, .behind = true, .from = player.prefetch.first, .to = player.prefetch.last}};
+        .timeline = {
+            .enabled = true, .rewound = true, .from = player.prefetch.first, .to = player.prefetch.last}};
     snprintf(out->message, sizeof out->message, "%s", player.message);
 }
 

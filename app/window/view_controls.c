@@ -1,7 +1,8 @@
-#include "app/input/touch.h"
+#include "app/input/input.h"
 #include "app/window/play_private.h"
 #include "render/frame/passes.h"
 #include "render/frame/view.h"
+#include "render/ui/text.h"
 
 #define GLFW_INCLUDE_NONE /* numbers only */
 #include <GLFW/glfw3.h>
@@ -17,7 +18,8 @@ static bool same_camera(const ViewDef *a, const ViewDef *b)
         same &= a->camera.from[k] == b->camera.from[k] && a->camera.to[k] == b->camera.to[k];
     same = a->camera_auto == b->camera_auto && (a->camera_auto || same);
     return same && a->camera_turn == b->camera_turn && a->camera_path_count == b->camera_path_count &&
-           memcmp(a->camera_path, b->camera_path, (size_t)a->camera_path_count * sizeof *a->camera_path) == 0;
+           (a->camera_path_count == 0 || memcmp(a->camera_path, b->camera_path,
+                                                (size_t)a->camera_path_count * sizeof *a->camera_path) == 0);
 }
 
 static void copy_camera(const ViewDef *from, ViewDef *to)
@@ -26,7 +28,7 @@ static void copy_camera(const ViewDef *from, ViewDef *to)
     to->camera = from->camera;
     to->camera_turn = from->camera_turn;
     to->camera_path_count = from->camera_path_count;
-    memcpy(to->camera_path, from->camera_path, sizeof to->camera_path);
+    to->camera_path = from->camera_path;
 }
 
 void views_open(PlayViews *views, Scene *scene, Scene *file)
@@ -74,7 +76,8 @@ static void make(PlayViews *views, Scene *scene, int count)
         scene->views[views->known] = *last_own(views, scene);
         copy_camera(&scene->view, &scene->views[views->known]);
         next_kind(&scene->views[views->known]);
-        *scene->views[views->known].file = *scene->views[views->known].set = 0;
+        scene->views[views->known].file = NULL;
+        scene->views[views->known].set = NULL;
     }
 }
 
@@ -172,7 +175,7 @@ void camera_home(PlayCamera *camera, PlayModel *model)
     view->camera = model->file_scene.view.camera;
     view->camera_turn = model->file_scene.view.camera_turn;
     view->camera_path_count = model->file_scene.view.camera_path_count;
-    memcpy(view->camera_path, model->file_scene.view.camera_path, sizeof view->camera_path);
+    view->camera_path = model->file_scene.view.camera_path;
 }
 
 static const uint32_t REST = 0xe8eef4e0, LIT = 0xffc23dff, SHADE = 0x101418b0;

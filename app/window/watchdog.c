@@ -1,5 +1,5 @@
 #define _GNU_SOURCE /* POLLRDHUP */
-#include "app/base/output.h"
+#include "app/base/file.h"
 #include "app/base/program.h"
 #include "app/files/pictures.h"
 #include "app/window/model.h"

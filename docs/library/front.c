@@ -12,8 +12,9 @@ int main(void)
     def.box_size[0] = 1.6, def.box_size[1] = 0.6;
     def.spacing = 0.02, def.support = 2.6;
     def.fluid_count = 1;
-    def.fluids[0] = (FluidDef){.name = "water", .density = 1000, .viscosity = 0.1, .fill_count = 1};
-    def.fluids[0].fills[0] = (Fill){.kind = FILL_BLOCK, .min = {-0.8, 0}, .max = {-0.4, 0.4}};
+    const Fill column = {.kind = FILL_BLOCK, .min = {-0.8, 0}, .max = {-0.4, 0.4}};
+    def.fluids[0] =
+        (FluidDef){.name = "water", .density = 1000, .viscosity = 0.1, .fill_count = 1, .fills = &column};
 
     World *world = world_create(&def, &error);
     WorldInfo info = {0};

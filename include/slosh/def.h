@@ -2,9 +2,13 @@
    world_def_default() and set the box, the spacing and the fluids. SI units; 2D or 3D; the box's frame has
    its origin at the centre of the box's floor, y up.
 
-   In the file's order: formulas and tables of time and place; the box's motion and the hand's filter;
-   solids; fluids and their fills, emitters, drains; the WorldDef. A def may be copied as a value: the
-   creator of a def keeps what the def's pointers name until the world is destroyed. */
+   The file has, in this order, formulas and tables of time and place, the box's motion and the hand's filter,
+   and solids. Then come fluids with fills, emitters and drains, and the WorldDef.
+
+   A list is a count and a pointer to memory of the def's creator: `Fill fills[40]; ... fluid.fills = fills;
+   fluid.fill_count = 40;`. A copy of a def has the same lists. world_create copies the lists: equal lists
+   once, for as long as the program runs. The names, tables and meshes behind other pointers stay
+   the creator's, until the world is destroyed. */
 #ifndef SLOSH_DEF_H
 #define SLOSH_DEF_H
 
@@ -82,7 +86,7 @@ double field_table_at(const FieldTable *table, int column, const double x[3]);
    frame has its origin at the centre of the box's floor, y up, axes parallel to the box's edges. Devices
    and prescribed motions turn the box about its centre. World and box frame coincide until the box moves. */
 
-enum { MOTIONS_MAX = 8 };
+enum { MOTIONS_MAX = 1000 }; /* of a list: a bound of the work, not of memory */
 
 /* The pose of the box and its rate, in the world's frame. */
 typedef struct BoxState {
@@ -179,7 +183,7 @@ typedef struct BoxFilter {
     double angular_velocity[3]; /* rad/s */
 } BoxFilter;
 
-/* box_filter.c gives the reason for each value. */
+/* sim/box/box_motion.c gives the reason for each value. */
 BoxLimits box_limits_default(void);
 BoxFilter box_filter_at_rest(void);
 
@@ -197,7 +201,7 @@ void box_filter_apply(const BoxFilter *filter, double box_height, BoxState *stat
    bowl (half of a hollow sphere) opens towards +y. A mesh has the middle of its bounding block there. The
    pose places the solid's frame in the box's frame. */
 
-enum { SOLIDS_MAX = 16 };
+enum { SOLIDS_MAX = 16 }; /* as many as the GPU's blocks of constants and a saved state have room for */
 
 /* X(ENUM, name, help) */
 #define SOLID_LIST(X)                                                                                         \
@@ -225,7 +229,7 @@ struct MeshShape;
 
 /* The mesh of a solid or a fill. */
 typedef struct MeshUse {
-    char file[FILE_NAME_SIZE];     /* name of the file of `shape` */
+    const char *file;              /* name of the file of `shape`; NULL: none */
     double scale;                  /* m per unit of the file */
     const struct MeshShape *shape; /* sim/mesh/mesh_shape.h; must outlive all copies. NULL: no kind of mesh,
                                       or the file is missing */
@@ -256,7 +260,7 @@ typedef struct SolidDef {
     int slip;       /* a Slip */
     float color[3]; /* linear RGB 0..1: for the views, no solver reads it */
     int motion_count;
-    Motion motions[MOTIONS_MAX];       /* act together, like the box's motions; turns go about the centre */
+    const Motion *motions;             /* act together, like the box's motions; turns go about the centre */
     SolidHand hand;                    /* zero: never moved by a hand */
     double density;                    /* kg/m3: more than 0: no motions, fluid and gravity move the solid
                                           (sim/solids), */
@@ -300,14 +304,14 @@ void solid_pose(const SolidDef *solid, double time, BoxState *pose);
 void solid_pose_in(const SolidDef *solid, double time, const BoxState *floating, BoxState *pose);
 
 /* Signed distance of x (the solid's frame, m) from the surface: negative inside. Exact outside, inside at
-   most the true depth; for a mesh as in sim/mesh/distance.h. In two dimensions x[2] must be 0. */
+   most the true depth; for a mesh as in sim/mesh/mesh_shape.h. In two dimensions x[2] must be 0. */
 double solid_distance(const SolidDef *solid, int dimensions, const double x[3]);
 
 /* Unit vector of the fastest growth of the distance. */
 void solid_normal(const SolidDef *solid, int dimensions, const double x[3], double normal[3]);
 
-/* True if the solid is always between `low` and `high` (m) along an axis of the box. False also where not
-   easy to prove, as with an acceleration along the axis. */
+/* True if the solid is always between `low` and `high` (m) along an axis of the box. False also where a
+   proof is not easy, as with an acceleration along the axis. */
 bool solid_between(const SolidDef *solid, int dimensions, int axis, double low, double high);
 
 /* Radius of a ball about the origin of the solid's frame, around the whole solid, m. */
@@ -322,7 +326,13 @@ double mesh_use_reach(const MeshUse *mesh);
 
 /* A solver's knowledge of a scene: plain data, SI units, the box's frame unless said otherwise. */
 
-enum { FLUIDS_MAX = 8, FILLS_MAX = 16, EMITS_MAX = 4, DRAINS_MAX = 8, NAME_SIZE = 32 };
+enum {
+    FLUIDS_MAX = 8, /* as many as the GPU's blocks of constants have room for */
+    EMITS_MAX = 4,  /* of a fluid; with drains at most 64 gates, a bit each in states and recordings */
+    DRAINS_MAX = 8,
+    FILLS_MAX = 256, /* of a fluid: a bound of the work, not of memory */
+    NAME_SIZE = 32
+};
 enum { METHODS_MAX = 8, METHOD_DEF_SIZE = 256, BACKENDS_MAX = 4, BACKEND_DEF_SIZE = 64 };
 
 /* Room for a method's own settings, a struct known only to the method: see method_def in
@@ -338,19 +348,19 @@ typedef struct BackendDef {
 
 typedef enum FillKind { FILL_BLOCK, FILL_BALL, FILL_CYLINDER, FILL_MESH } FillKind;
 
-/* A region full of a fluid at the start, on a lattice of sim/start/fill.h; or the region of a
+/* A region full of a fluid at the start, on a lattice of sim/start/start.h; or the region of a
    drain. */
 typedef struct Fill {
     FillKind kind;
-    double min[3], max[3];      /* block, m */
-    double centre[3], radius;   /* ball and cylinder, m; mesh: middle of the block around the mesh */
-    double axis[3], height;     /* cylinder: direction, of any length but zero; m. 3D only */
-    double angle_deg;           /* mesh: turn about `axis`, degrees */
-    MeshUse mesh;               /* 3D only */
-    char below[FILE_NAME_SIZE]; /* upper end (m), a formula of x and z, if given; or the name of the file of
-                                 `heights` */
-    const FieldTable *heights;  /* NULL: `below` is a formula or not given; column 0: m. For world_create */
-    bool shut;                  /* a drain: shut at the start */
+    double min[3], max[3];     /* block, m */
+    double centre[3], radius;  /* ball and cylinder, m; mesh: middle of the block around the mesh */
+    double axis[3], height;    /* cylinder: direction, of any length but zero; m. 3D only */
+    double angle_deg;          /* mesh: turn about `axis`, degrees */
+    MeshUse mesh;              /* 3D only */
+    const char *below;         /* upper end (m), a formula of x and z, if given; or the name of the file of
+                                  `heights`. NULL or "none": none */
+    const FieldTable *heights; /* NULL: `below` is a formula or not given; column 0: m. For world_create */
+    bool closed;               /* a drain: shut at the start */
 } Fill;
 
 /* A disk that sends out fluid at rest density, with a velocity along the normal, in the box's frame.
@@ -363,13 +373,13 @@ typedef struct Emit {
     double speed;        /* m/s */
     double start;        /* s */
     double duration;     /* s; 0: for ever */
-    bool shut;           /* shut at the start */
+    bool closed;         /* shut at the start */
 } Emit;
 
 /* How a fluid's fills start: X(ENUM, name). */
 #define START_LIST(X)                                                                                        \
     X(REST, "rest")               /* at rest density: gravity sets in suddenly, and deep fluid rings */      \
-    X(HYDROSTATIC, "hydrostatic") /* with the pressure due to gravity: sim/start/rest.h */
+    X(HYDROSTATIC, "hydrostatic") /* with the pressure due to gravity: sim/start/start.h */
 
 typedef enum FluidStart {
 #define X(NAME, name) START_##NAME,
@@ -379,22 +389,22 @@ typedef enum FluidStart {
 
 typedef struct FluidDef {
     char name[NAME_SIZE];
-    double density;                 /* rest density rho0, kg/m3 */
-    double viscosity;               /* dynamic, mu, Pa s; in a world, with a table: the present value */
-    TimeTable viscosity_table;      /* mu over time; without rows `viscosity` at any time */
-    double surface_tension;         /* sigma, N/m: at the border of this fluid; see WorldDef.tension_model */
-    double contact_angle;           /* at the walls of the box, degrees, measured in the fluid */
-    int start;                      /* a FluidStart */
-    double velocity[3];             /* at the start, in the box's frame, m/s */
-    char flow[3][FORMULA_SIZE];     /* added to `velocity`: formulas of x, y and z, if given: m/s */
-    char flow_file[FILE_NAME_SIZE]; /* name of the file of `flow_table` */
-    const FieldTable *flow_table;   /* added too: columns in m/s; NULL: none. Read by world_create only */
-    double taylor_green;            /* added too: vortices of sim/start/seed.h, of that speed, m/s; 0: none */
-    float color[3];                 /* linear RGB 0..1: for the views, no solver reads it */
+    double density;               /* rest density rho0, kg/m3 */
+    double viscosity;             /* dynamic, mu, Pa s; in a world, with a table: the present value */
+    TimeTable viscosity_table;    /* mu over time; without rows `viscosity` at any time */
+    double surface_tension;       /* sigma, N/m: at the border of this fluid; see WorldDef.tension_model */
+    double contact_angle;         /* at the walls of the box, degrees, measured in the fluid */
+    int start;                    /* a FluidStart */
+    double velocity[3];           /* at the start, in the box's frame, m/s */
+    char flow[3][FORMULA_SIZE];   /* added to `velocity`: formulas of x, y and z, if given: m/s */
+    const char *flow_file;        /* name of the file of `flow_table`; NULL or "none": none */
+    const FieldTable *flow_table; /* added too: columns in m/s; NULL: none. Read by world_create only */
+    double taylor_green;          /* added too: vortices of sim/start/start.h, of that speed, m/s; 0: none */
+    float color[3];               /* linear RGB 0..1: for the views, no solver reads it */
     int fill_count;
-    Fill fills[FILLS_MAX];
+    const Fill *fills;
     int emit_count;
-    Emit emits[EMITS_MAX];
+    const Emit *emits;
 } FluidDef;
 
 /* A ready initial state in place of the fills: for tests, and for states off the lattice. */
@@ -405,7 +415,7 @@ typedef struct InitialState {
     const uint8_t *fluid;  /* count, or NULL for the first fluid */
     const float *density;  /* count, kg/m3, for a method with carried density; NULL: at rest */
     const float *pressure; /* count, Pa, for a method with multipliers at the start; NULL: 0 */
-    size_t room;           /* room for at least so many particles; 0: for `count` */
+    size_t capacity;       /* room for at least so many particles; 0: for `count` */
 } InitialState;
 
 typedef enum StepMode { STEP_FIXED, STEP_CFL } StepMode;
@@ -414,7 +424,7 @@ typedef struct WorldDef {
     int dimensions;     /* 3, or 2: all in the plane z = 0, a metre deep; then the box's depth is the spacing,
                            not that of box_size */
     double box_size[3]; /* inner width, height, depth, m */
-    bool periodic[3];   /* the sides across the axis are joined: see sim/box/walls.h; a periodic box does
+    bool periodic[3];   /* the sides across the axis are joined: see sim/box/box.h; a periodic box does
                            not turn */
     double gravity[3];  /* in the world's frame, m/s2 */
     double spacing;     /* of the lattice at rest, m */
@@ -431,43 +441,42 @@ typedef struct WorldDef {
     BackendDef of_backend[BACKENDS_MAX]; /* the same for each backend */
     int tension_model;                   /* a TensionModel of sim/def/fluids.h */
     int viscosity_solver;                /* a ViscositySolver of sim/def/fluids.h; for the implicit solver: */
-    double
-        viscosity_tolerance; /* greatest residual of a step, a fraction: see sim/methods/shared/viscosity.h */
-    int viscosity_iterations; /* at most */
-    int wall_slip; /* a Slip of include/slosh/def.h: how viscous fluid passes the walls of the box */
-    double lid[3]; /* velocity of the top wall, in its plane, m/s: for walls without slip */
+    double viscosity_tolerance; /* greatest residual of a step, a fraction: see sim/methods/shared/terms.h */
+    int viscosity_iterations;   /* at most */
+    int wall_slip;              /* a Slip: how viscous fluid passes the walls of the box */
+    double lid[3];              /* velocity of the top wall, in its plane, m/s: for walls without slip */
     StepMode step_mode;
     double dt;         /* simulated time of a frame, s; mode fixed */
     int substeps;      /* steps in a frame; mode fixed */
     double cfl_number; /* factor of the step's limits; mode cfl, one step per frame: see
-                          sim/step/step_control.h */
+                          sim/step/constants.h */
     double max_dt;     /* greatest step, s; mode cfl */
     int retries; /* number of halvings of the step after trouble, before the world gives up; 0: no sentinel */
     int fluid_count;
     FluidDef fluids[FLUIDS_MAX];
     int motion_count;
-    Motion motions[MOTIONS_MAX];
+    const Motion *motions;
     int drain_count;
-    Fill drains[DRAINS_MAX]; /* fluid inside a drain is removed */
-    int most;                /* emitters fill the world up to so many particles */
-    bool pours;              /* a user pours fluid: as with emitters. A world sets it at the first pouring:
-                                world_make_room */
+    const Fill *drains; /* fluid inside a drain is removed */
+    int most;           /* emitters fill the world up to so many particles */
+    bool pours;         /* a user pours fluid: as with emitters. A world sets it at the first pouring:
+                           world_make_room */
     int solid_count;
     SolidDef solids[SOLIDS_MAX];
-    bool acceleration; /* keeps particles' accelerations: sim/methods/shared/acceleration.h; no bit of a step
+    bool acceleration; /* keeps particles' accelerations: sim/methods/shared/terms.h; no bit of a step
                           changes */
     BoxLimits limits;  /* of the box in the hand */
     const InitialState *initial; /* NULL: the fills; read by world_create only */
 } WorldDef;
 
-/* mu at `time` (s), and the greatest and the least mu at any time, Pa s. A fluid with a table above 0
+/* The greatest and the least mu at any time, Pa s. A fluid with a table above 0
    somewhere counts as viscous throughout, so that the terms of a world do not change with time. */
-double fluid_viscosity_at(const FluidDef *fluid, double time);
 double fluid_viscosity_most(const FluidDef *fluid);
 double fluid_viscosity_least(const FluidDef *fluid);
 
-/* Copy of the def with each viscosity at the greatest value of its table. */
-WorldDef world_def_most_viscous(const WorldDef *def);
+/* The def with each viscosity at the greatest value of its table: a copy in *space, or the def itself without
+   a table. */
+const WorldDef *world_def_most_viscous(const WorldDef *def, WorldDef *space);
 
 /* Sets viscosities with a table to the values at `time` (s). */
 void world_def_at(WorldDef *def, double time);

@@ -70,8 +70,8 @@ void field_slabs_free(FieldSlabs *slabs); /* zeroed slabs are allowed */
 bool field_sum(const FieldParticles *particles, const VolumeGrid *grid, int threads, FieldSlabs *slabs,
                float *field, float *weighted, Error *error);
 
-/* The field at point r (m), summed in double over all particles: a reference to check other sums. `weighted`
-   may be NULL. */
+/* For tests: the field at point r (m), summed in double over all particles: a reference to check other sums.
+   `weighted` may be NULL. */
 double field_at(const FieldParticles *particles, const double r[3], double *weighted);
 
 /* Level set of values on a grid, as a closed mesh of triangles, by marching cubes. After: W. Lorensen, H.

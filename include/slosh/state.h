@@ -1,6 +1,6 @@
 /* The saved state of a world: all data read by the next step, so that save, load, step equals step to the
-   bit, on any backend (world_save, world_load at the end of the file). Above: births, floating solids,
-   energy sums, live settings, and the particles' columns, which the state holds. */
+   bit, on any backend (world_save, world_load below). The file begins with what the state holds: births,
+   floating solids, energy sums, live settings, and the particles' columns. */
 #ifndef SLOSH_STATE_H
 #define SLOSH_STATE_H
 
@@ -24,7 +24,7 @@ typedef struct Birth {
 /* Sorted by id; particles before the first entry were born at time 0. Zero-initialise. */
 typedef struct Births {
     Birth *of;
-    size_t count, room;
+    size_t count, capacity;
 } Births;
 
 /* Makes room for `more` entries; false if memory is short. */
@@ -53,8 +53,7 @@ float births_time(const Births *births, ParticleId id);
 
 void births_free(Births *births); /* a zeroed struct is allowed */
 
-/* State of solids moved by the fluid: doubles only, since files keep the state as part of WorldNumbers
-   (include/slosh/state.h). */
+/* State of solids moved by the fluid: doubles only, since files keep the state as part of WorldNumbers. */
 
 typedef struct BodyState {
     BoxState pose;   /* of the solid's frame, in the box's frame */
@@ -69,7 +68,7 @@ typedef struct BodyStates {
     BodyState of[SOLIDS_MAX];
 } BodyStates;
 
-/* Sums over matter for the energy watch (sim/step/sentinel.h), in the box's frame. Inflow, outflow and
+/* Sums over matter for the energy watch (sim/step/world.h), in the box's frame. Inflow, outflow and
    floating solids add their own sums. */
 
 /* The last fields are needed only in a box that turns. */
@@ -121,7 +120,7 @@ void live_load(const double numbers[LIVE_NUMBERS], WorldDef *def);
    state has no room for. */
 void live_copy(const WorldDef *from, WorldDef *to);
 
-/* Number of values of the rows: LIVE_NUMBERS. */
+/* For tests: number of values of the rows, which LIVE_NUMBERS has as a constant. */
 int live_count(void);
 
 /* Columns of the particles. A table gives name, contents and treatment of each column; allocation, sorting,
@@ -148,8 +147,8 @@ typedef struct ParticleColumns {
     float *viscosity;        /* of the particle's fluid, Pa s */
     float *tension;          /* of the particle's fluid, N/m; scaled for cohesion */
     float *kind;             /* fluid number: equal for pairs within a fluid */
-    float *own[COLUMNS_OWN]; /* columns of the method, by its rows; from COLUMNS_KEPT on kept columns of
-                                terms; from COLUMNS_LEFT on columns_left (unknown: 0); from COLUMNS_SHOWN
+    float *own[COLUMNS_OWN]; /* columns of the method, by its rows. From COLUMNS_KEPT on kept columns of
+                                terms. From COLUMNS_LEFT on columns_left (unknown: 0). From COLUMNS_SHOWN
                                 on columns never read by a step (unknown: NaN) */
     float *term[COLUMNS_TERM]; /* of the shared terms (sim/step/method.h), likewise */
 } ParticleColumns;
@@ -188,7 +187,7 @@ int column_own(const ColumnDef *column);
 /* True if a method's rows (NULL: none) include a saved column in `own`. */
 bool columns_save_own(const ColumnDef *own);
 
-/* Columns of every method; remainders of rounded positions in wide boxes (sim/box/box_step.h). Both lists end
+/* Columns of every method; remainders of rounded positions in wide boxes (sim/box/box.h). Both lists end
    with a NULL name. */
 extern const ColumnDef columns_common[], columns_left[];
 
@@ -207,11 +206,6 @@ typedef struct ColumnRows {
 /* Rows with all of `flags`: common rows and the method's rows `own` (ended by a NULL name; NULL: none).
    With constants, only needed rows. */
 ColumnRows column_rows(const ColumnDef *own, unsigned flags, const struct Constants *constants);
-
-/* Name of the scalar for a component of a method's column: NAME, or NAME_x, NAME_y, NAME_z for three
-   components. */
-enum { COLUMN_NAME_SIZE = 32 };
-void column_scalar_name(const ColumnDef *column, int component, char name[COLUMN_NAME_SIZE]);
 
 /* Index in `own` of a scalar of OWN_SCALAR_LIST, among these rows; -1: not present. */
 int columns_place(const ColumnRows *rows, Scalar scalar);
@@ -248,20 +242,20 @@ void columns_clear(const ColumnRows *rows, const ParticleColumns *columns, size_
 
 struct Method; /* sim/step/method.h */
 
-/* Reference of sim/step/sentinel.h; zero: none yet. */
+/* Reference of sim/step/world.h; zero: none yet. */
 typedef struct EnergyMark {
-    double least;   /* energy of motion and compression minus work since the first look, J */
-    double until;   /* step after which a new reference is taken */
-    double next;    /* step of the next look; earlier if particles are much faster than */
-    double speed;   /* the greatest speed at the last look, m/s */
-    double work;    /* work of gravity and of the box's motion since the first look, J */
-    double stirred; /* absolute work since `least`, J */
-    double surface; /* surface energy that might come free, at `least`, J */
-    double most;    /* allowed gain over `least` at the last look, J */
-    double jolted;  /* not 0: the box's velocity jumps in the current step */
-    double turning; /* not 0: the sums include those for a turning box */
-    double gauged;  /* not 0: the sums are from a GPU's gauge */
-    double time;    /* of the last look, s; sums and box at that time: */
+    double least;          /* energy of motion and compression minus work since the first look, J */
+    double until;          /* step after which a new reference is taken */
+    double next;           /* step of the next look; earlier if particles are much faster than */
+    double speed;          /* the greatest speed at the last look, m/s */
+    double work;           /* work of gravity and of the box's motion since the first look, J */
+    double absolute_work;  /* absolute work since `least`, J */
+    double surface;        /* surface energy that might come free, at `least`, J */
+    double most;           /* allowed gain over `least` at the last look, J */
+    double velocity_jumps; /* not 0: the box's velocity jumps in the current step */
+    double turning;        /* not 0: the sums include those for a turning box */
+    double gauged;         /* not 0: the sums are from a GPU's gauge */
+    double time;           /* of the last look, s; sums and box at that time: */
     EnergySums sums;
     BoxState box;
 } EnergyMark;
@@ -281,7 +275,7 @@ typedef struct WorldNumbers {
     double live[LIVE_NUMBERS]; /* live settings of the def */
     EnergyMark energy;         /* last members from here on: files may end before them */
     FingerState finger;
-    double shut;       /* shut gates of emitters and drains, bits as an integer: sim/flow/flow.h */
+    double closed;     /* shut gates of emitters and drains, bits as an integer: sim/flow/flow.h */
     double pours;      /* s: begin of the finger's pouring */
     BodyStates bodies; /* floating solids */
 } WorldNumbers;
@@ -325,7 +319,7 @@ bool world_load(World *world, const WorldState *state, Error *error);
    changed. */
 bool world_move(World **world, const char *backend, Error *error);
 
-/* True if the box can be resized to that of `def` in place: same solids, with resting solids wholly inside
+/* True if the box can be resized to that of `def` in place. Same solids, with resting solids wholly inside
    before and after, and the new box inside the existing cells. Otherwise rebuild the world. */
 bool world_resizes(const World *world, const WorldDef *def);
 

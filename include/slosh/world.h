@@ -1,4 +1,4 @@
-/* The solver: make a world from a def (slosh/def.h), step, read.
+/* The solver: make a world from a def (slosh/def.h), step the world, and read its state.
 
      Error error = {{0}};
      World *world = world_create(&def, &error);
@@ -6,9 +6,10 @@
      world_read(world, &(ParticleArrays){.position = position});
      world_destroy(world);
 
-   In the file's order: ids, scalars and vectors of particles; stages and their clock; forces on box and
-   solids; the finger; limits and troubles of a step; what can be read of a world; the functions. A function
-   that can fail returns false or NULL with a message in `error`. Nothing is printed, nothing exits. */
+   The file begins with ids, scalars and vectors of particles; stages and the clock; forces on box and solids.
+   Then come the finger, limits and troubles of a step, figures of a world, and the functions. A function
+   that can fail returns false or NULL with a message in `error`. The library prints nothing and never
+   exits. */
 #ifndef SLOSH_WORLD_H
 #define SLOSH_WORLD_H
 
@@ -20,8 +21,8 @@
 #include <stdint.h>
 
 /* Identity of a particle: its index in the initial state, or the number of particles born before. Ids are
-   never reused, so emitters may count beyond 2^32. GPUs have the low 32 bits only: GPU backends reject
-   particles beyond (world_flow, world_load), and views identify particles by these bits. */
+   never reused, so emitters may count beyond 2^32. GPUs have the low 32 bits only. So GPU backends reject
+   particles beyond, and views identify particles by these bits. */
 
 typedef uint64_t ParticleId;
 
@@ -127,11 +128,11 @@ typedef enum Vector {
 extern const ScalarRow vector_list[];
 
 /* Stages: names, and the clock for stages on the CPU. A stage belongs to a part of the program; times are
-   summed over a frame, since a frame runs a stage once per substep. sim/gpu/timer.h times GL stages, under
+   summed over a frame, since a frame runs a stage once per substep. sim/gpu/gl.h times GL stages, under
    the same names.
 
-   The names are for people, in tables and JSON. Methods and views share the names, and a new method or view
-   uses fitting names or adds rows here. */
+   People read the names in tables and JSON. All methods and views share the names. A new method or view uses
+   fitting names, or adds rows here. */
 
 /* X(ENUM, name, part): in the order of a frame */
 #define STAGE_LIST(X)                                                                                        \
@@ -156,7 +157,7 @@ extern const ScalarRow vector_list[];
     X(BACKDROP, "backdrop", PART_RENDER)                                                                     \
     X(OVERLAY, "overlay", PART_RENDER)
 
-typedef enum Part { PART_SIM, PART_UPLOAD, PART_RENDER } Part;
+typedef enum StagePart { PART_SIM, PART_UPLOAD, PART_RENDER } StagePart;
 
 typedef enum Stage {
 #define X(NAME, name, part) STAGE_##NAME,
@@ -166,8 +167,8 @@ typedef enum Stage {
 } Stage;
 
 const char *stage_name(Stage stage);
-Part stage_part(Stage stage);
-const char *part_name(Part part);
+StagePart stage_part(Stage stage);
+const char *part_name(StagePart part);
 
 /* Milliseconds of each stage in a frame; `ran` separates a stage with zero time from a stage not in the
    frame. */
@@ -181,7 +182,7 @@ typedef struct StageClock {
     StageTimes frame; /* of the current frame; the owner clears it between frames */
     double began_ms;  /* begin of the running stage; stages do not nest */
     void *gpu;        /* the clock of a GPU; if not NULL, gpu_begin and gpu_end are called instead:
-                         sim/gpu/timer.h */
+                         sim/gpu/gl.h */
     void (*gpu_begin)(void *gpu);
     void (*gpu_end)(void *gpu, Stage stage);
 } StageClock;
@@ -196,8 +197,8 @@ void stage_end(StageClock *clock, Stage stage);
 /* Monotonic wall time in milliseconds. */
 double wall_ms(void);
 
-/* Forces of the fluid on the box and on each solid, summed over steps, on request (Backend.feel). Without a
-   request a world pays nothing. */
+/* Forces of the fluid on the box and on each solid, summed over steps, on request (world_enable_forces).
+   Without a request there is no cost. */
 
 /* In the box's axes. Summed over time: N s and N m s; as a mean: N and N m. */
 typedef struct Push {
@@ -205,9 +206,9 @@ typedef struct Push {
                                    origin */
 } Push;
 
-/* The box's push is all push of the fluid less the solids': walls, and the rest of a guard, without emitters
-   and drains. A solid's push is the reaction to the push of the solid's boundary particles on fluid: pressure
-   and explicit friction. Implicit friction counts in the box's push. */
+/* The box's push is the whole push of the fluid, without that on solids: on walls, and by guards. Emitters
+   and drains do not count. A solid's push is the reaction to the push of the solid's boundary particles on
+   fluid: pressure and explicit friction. Implicit friction counts in the box's push. */
 typedef struct Forces {
     double seconds; /* summed time */
     Push box, solid[SOLIDS_MAX];
@@ -243,8 +244,8 @@ void forces_mean(Forces *forces);
    no pass and no branch.
 
    With q = |x - point| / radius and w = (1 - q^2)^2 inside, 0 outside, over a step of dt:
-     stir: v += (1 - exp(-strength w dt)) (V - v), exact for a fixed w, so never overshoots;
-     pull, push: v -+= strength dt w q / max(w q) along x - point, so that the centre feels nothing. */
+     stir: v += (1 - exp(-strength w dt)) (V - v), exact for a fixed w, so never overshoots.
+     Pull, push: v -+= strength dt w q / max(w q) along x - point, so that the centre feels nothing. */
 
 typedef enum FingerWay {
     FINGER_NONE,
@@ -310,9 +311,9 @@ double finger_acceleration(const FingerState *state);
 /* Moves the point over `dt` (s). */
 void finger_step(FingerState *state, const FingerLimits *limits, double dt, FingerStep *step);
 
-/* 1 - exp(-x), relative error 1e-6, practically 1 from 16 on. Only the four basic operations, without a
-   library: the same bits everywhere. Padé (2, 2) of x / 32, doubled five times. Same as
-   shaders/sim/finger.glsl. */
+/* 1 - exp(-x), relative error 1e-6, practically 1 from 16 on. Uses only the four basic operations and no
+   library, so the bits are the same everywhere. The formula is Padé (2, 2) of x / 32, doubled five times,
+   as in shaders/sim/finger.glsl. */
 static inline float finger_share(float x)
 {
     const float y = (x < 16 ? x : 16) * (1 / 32.0F);
@@ -333,7 +334,7 @@ static inline void finger_apply(const FingerStep *step, const float d[3], float 
         v[k] += share * (step->velocity[k] - v[k]) + kick * d[k];
 }
 
-/* Bounds, state and troubles of a step, and its solvers: what callers of a world read of steps. */
+/* Bounds, state and troubles of a step, and its solvers, as callers of a world read them. */
 
 /* Number of columns that a method may own (include/slosh/state.h). */
 enum { COLUMNS_OWN = 44 };
@@ -362,7 +363,7 @@ const char *step_limit_name(StepLimit limit);
 /* Solvers of a step by number: the method's solvers, then implicit viscosity. */
 enum { SOLVES_OF_METHOD = 2, SOLVE_VISCOSITY = SOLVES_OF_METHOD, SOLVES_MAX };
 
-/* An iterating solver of a method (sim/step/iterate.h). */
+/* An iterating solver of a method (sim/step/substep.h). */
 typedef struct MethodSolver {
     const char *name;                   /* for messages: "density"; NULL: no solver with this number */
     const char *tolerance, *iterations; /* paths of the solver's keys */
@@ -370,15 +371,15 @@ typedef struct MethodSolver {
 
 /* Step state of a world. Doubles only: part of the saved state. */
 typedef struct StepState {
-    double dt;               /* of the current or last step, s */
-    double wanted;           /* dt before division by `refine` and before fitting to a frame's end, s */
-    double limit;            /* a StepLimit: the bound of the step */
-    double max_speed;        /* m/s, after the last step */
-    double max_acceleration; /* m/s2, in the last step */
-    double frame_left;       /* steps to the end of the frame; -1: the frame begins again */
-    double refine;           /* 1, 2, 4, ...: divisor of the step after trouble */
-    double tries;            /* halvings not yet taken back */
-    double calm;             /* steps since the last trouble or relief */
+    double dt;                  /* of the current or last step, s */
+    double wanted;              /* dt before division by `refine` and before fitting to a frame's end, s */
+    double limit;               /* a StepLimit: the bound of the step */
+    double max_speed;           /* m/s, after the last step */
+    double max_acceleration;    /* m/s2, in the last step */
+    double frame_left;          /* steps to the end of the frame; -1: the frame begins again */
+    double refine;              /* 1, 2, 4, ...: divisor of the step after trouble */
+    double tries;               /* halvings not yet taken back */
+    double steps_since_trouble; /* steps since the last trouble or relief */
 } StepState;
 
 /* Result of an iterating solver in a step. */
@@ -448,7 +449,7 @@ typedef struct WorldInfo {
     size_t count, capacity;        /* particles; limit for emitters */
     uint64_t emitted, drained;     /* particles since the start */
     bool full;                     /* emitters wait: the world has its limit of particles */
-    uint64_t barred;               /* gates of emitters without room for BLOCKED_LAYERS consecutive layers */
+    uint64_t blocked;              /* gates of emitters without room for BLOCKED_LAYERS consecutive layers */
     int threads;                   /* threads of the backend */
     const char *simd;              /* instruction set of pair sums; NULL: no choice */
     double support_radius;         /* h, m */
@@ -541,9 +542,9 @@ bool world_fits(const WorldDef *def, Error *error);
 bool world_on_gpu(const WorldDef *def);
 
 /* Advances the world to the end of the frame (mode fixed: dt, in `substeps` steps; cfl: a single step).
-   Adds stage times to `clock` (NULL: not measured). On trouble the sentinel goes back and halves the step:
-   WorldInfo.trouble. Returns false with a message if `retries` halvings did not help: the world then holds
-   the last good state, but without retries an invalid state. */
+   Adds stage times to `clock` (NULL: not measured). On trouble the sentinel goes back and halves the step,
+   and WorldInfo.trouble describes the trouble. Returns false with a message if `retries` halvings did not
+   help: the world then holds the last good state, but without retries an invalid state. */
 bool world_step(World *world, StageClock *clock, Error *error);
 
 /* The same for a single step of the frame's `substeps`, for callers that act in between. */
@@ -554,7 +555,7 @@ bool world_substep(World *world, StageClock *clock, Error *error);
 void world_stop_at(World *world, double time);
 
 /* True if the present state has no known trouble. A GPU backend otherwise checks only at the begin of the
-   next frame, which then goes back: call before keeping a state. Waits for the GPU's steps. */
+   next frame, which then goes back. So call this before keeping a state. Waits for the GPU's steps. */
 bool world_is_valid(World *world);
 
 /* Sets the hand's target for the box from the next step on. The box follows through the filter, on top of
@@ -577,8 +578,8 @@ void world_set_finger(World *world, const Finger *finger);
 
 /* Sets the shut gates of emitters and drains from the next step on: bits of sim/flow/flow.h; unknown
    gates are ignored. An open emitter emits the layers due at its time, as if it had never been shut. */
-void world_shut_gates(World *world, uint64_t gates);
-uint64_t world_gates_shut(const World *world);
+void world_close_gates(World *world, uint64_t gates);
+uint64_t world_closed_gates(const World *world);
 
 /* Takes the live settings from `def`: gravity, viscosities, sound speed, negative pressure, dt, substeps,
    number and max_dt of mode cfl, the hand's limits, live keys of methods. The rest of `def` must be
@@ -613,9 +614,9 @@ bool world_gauge(World *world, WorldGauge *gauge);
    false with the reason: the backend cannot sum forces, or memory is short. */
 bool world_enable_forces(World *world, Error *error);
 
-/* From now on, the world keeps the particles' acceleration, as with WorldDef.acceleration; unknown before
-   the next step. No effect if already kept. Returns false with the reason: the backend cannot, or memory is
-   short. */
+/* From now on, the world keeps the particles' acceleration, as with WorldDef.acceleration. Before the next
+   step the acceleration is unknown. No effect if already kept. Returns false with the reason: the backend
+   cannot, or memory is short. */
 bool world_keep_acceleration(World *world, Error *error);
 
 /* Mean forces since the last call or since world_enable_forces; `seconds` is 0 if there was no step. Steps
@@ -626,7 +627,7 @@ void world_forces(World *world, Forces *forces);
 bool world_read(World *world, const ParticleArrays *out);
 
 /* A hash of id, position and velocity of every particle in the order of ids, and of pose and motion of
-   floating solids: equal for equal bits; 0 if memory is short. */
+   floating solids. Equal states have equal hashes; 0 if memory is short. */
 uint64_t world_hash(World *world);
 
 /* Lists of names, ended by a NULL name. */
@@ -635,7 +636,7 @@ typedef struct Named {
 } Named;
 
 /* Defaults of every field except the box, the spacing and the fluids, for scenes without a value. The
-   reason for each number is in world_default.c. */
+   reason for each number is in sim/step/world_start.c. */
 WorldDef world_def_default(void);
 
 const Named *world_methods(void);

@@ -1,15 +1,35 @@
-#include "render/frame/passes.h"
+/* The light on the floor, and the backdrop: sky and floor. */
+#include "render/frame/effect.h"
+#include "render/frame/view.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/shadow_maps.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <string.h>
 
-bool backdrop_create(Backdrop *backdrop, Error *error)
+/* The first pass that writes the target: its colour; no depth. The floor is lit by Frame.floor.light.
+
+   Without the fluid's shadow the backdrop depends on the camera alone and is kept while the camera stands
+   still. Then a picture costs a copy, and shading of the floor area that the shadow may reach. */
+
+enum { BACKDROP_KEY_SIZE = 32 };
+
+typedef struct Backdrop {
+    unsigned program, shadow_program, vertex_array;
+    double seen[BACKDROP_KEY_SIZE]; /* all inputs of sky and lit floor in the last picture */
+    bool cached;                    /* `cached_color` holds the backdrop of `seen` */
+    unsigned cached_framebuffer, cached_color;
+    unsigned cached_target; /* number of the target that gave both objects their size; 0: not created yet */
+} Backdrop;
+
+static bool backdrop_prepare(void *state, const Subject *subject, Error *error)
 {
     static const char *const stages[] = {"render/backdrop.vert", "render/backdrop.frag", NULL};
-    *backdrop = (Backdrop){0};
+    Backdrop *backdrop = state;
+    (void)subject;
+    if (backdrop->shadow_program)
+        return true;
     glCreateVertexArrays(1, &backdrop->vertex_array);
     backdrop->program = program_create("backdrop", stages, NULL, error);
     if (backdrop->program)
@@ -19,19 +39,19 @@ bool backdrop_create(Backdrop *backdrop, Error *error)
 
 static void forget_kept(Backdrop *backdrop)
 {
-    glDeleteFramebuffers(1, &backdrop->kept_framebuffer);
-    glDeleteTextures(1, &backdrop->kept_color);
-    backdrop->kept_framebuffer = backdrop->kept_color = backdrop->kept_target = 0;
-    backdrop->kept = false;
+    glDeleteFramebuffers(1, &backdrop->cached_framebuffer);
+    glDeleteTextures(1, &backdrop->cached_color);
+    backdrop->cached_framebuffer = backdrop->cached_color = backdrop->cached_target = 0;
+    backdrop->cached = false;
 }
 
-void backdrop_destroy(Backdrop *backdrop)
+static void backdrop_destroy(void *state)
 {
+    Backdrop *backdrop = state;
     forget_kept(backdrop);
     glDeleteProgram(backdrop->program);
     glDeleteProgram(backdrop->shadow_program);
     glDeleteVertexArrays(1, &backdrop->vertex_array);
-    *backdrop = (Backdrop){0};
 }
 
 static double *append_numbers(double *to, const float *from, int count)
@@ -49,9 +69,9 @@ static void make_key(const Frame *frame, double key[BACKDROP_KEY_SIZE])
     key = append_numbers(key, camera->tangent, 2);
     key = append_numbers(key, camera->centre, 2);
     key = append_numbers(key, &camera->near_plane, 1);
-    key = append_numbers(key, &frame->floor_height, 1);
-    key = append_numbers(key, frame->floor_center, 2);
-    key = append_numbers(key, &frame->floor_radius, 1);
+    key = append_numbers(key, &frame->floor.height, 1);
+    key = append_numbers(key, frame->floor.center, 2);
+    key = append_numbers(key, &frame->floor.radius, 1);
     for (int i = 0; i < 3; i++)
         *key++ = frame->def->background[i];
     *key = frame->target->number;
@@ -79,53 +99,74 @@ static void draw_unshaded(const Backdrop *backdrop, const Frame *frame, GLuint f
 
 static void keep(Backdrop *backdrop, const Frame *frame)
 {
-    if (backdrop->kept_target != frame->target->number) {
+    if (backdrop->cached_target != frame->target->number) {
         forget_kept(backdrop);
-        glCreateTextures(GL_TEXTURE_2D, 1, &backdrop->kept_color);
-        glTextureStorage2D(backdrop->kept_color, 1, GL_SRGB8_ALPHA8, frame->width, frame->height);
-        glObjectLabel(GL_TEXTURE, backdrop->kept_color, -1, "kept backdrop");
-        glCreateFramebuffers(1, &backdrop->kept_framebuffer);
-        glNamedFramebufferTexture(backdrop->kept_framebuffer, GL_COLOR_ATTACHMENT0, backdrop->kept_color, 0);
-        glObjectLabel(GL_FRAMEBUFFER, backdrop->kept_framebuffer, -1, "kept backdrop");
-        backdrop->kept_target = frame->target->number;
+        glCreateTextures(GL_TEXTURE_2D, 1, &backdrop->cached_color);
+        glTextureStorage2D(backdrop->cached_color, 1, GL_SRGB8_ALPHA8, frame->width, frame->height);
+        glObjectLabel(GL_TEXTURE, backdrop->cached_color, -1, "kept backdrop");
+        glCreateFramebuffers(1, &backdrop->cached_framebuffer);
+        glNamedFramebufferTexture(backdrop->cached_framebuffer, GL_COLOR_ATTACHMENT0, backdrop->cached_color,
+                                  0);
+        glObjectLabel(GL_FRAMEBUFFER, backdrop->cached_framebuffer, -1, "kept backdrop");
+        backdrop->cached_target = frame->target->number;
     }
-    draw_unshaded(backdrop, frame, backdrop->kept_framebuffer);
-    backdrop->kept = true;
+    draw_unshaded(backdrop, frame, backdrop->cached_framebuffer);
+    backdrop->cached = true;
 }
 
 /* The backdrop is kept from the second picture of a still camera on; a moving camera pays nothing. */
 static void copy_kept(Backdrop *backdrop, const Frame *frame)
 {
     if (!stands_still(backdrop, frame)) {
-        backdrop->kept = false;
+        backdrop->cached = false;
         draw_unshaded(backdrop, frame, frame->target->framebuffer);
         return;
     }
-    if (!backdrop->kept)
+    if (!backdrop->cached)
         keep(backdrop, frame);
-    glCopyImageSubData(backdrop->kept_color, GL_TEXTURE_2D, 0, 0, 0, 0, frame->target->color, GL_TEXTURE_2D,
+    glCopyImageSubData(backdrop->cached_color, GL_TEXTURE_2D, 0, 0, 0, 0, frame->target->color, GL_TEXTURE_2D,
                        0, 0, 0, 0, frame->width, frame->height, 1);
 }
 
 static void shade_floor(const Backdrop *backdrop, const Frame *frame)
 {
-    if (frame->floor_radius <= 0 || frame->camera.eye[1] <= frame->floor_height)
+    if (frame->floor.radius <= 0 || frame->camera.eye[1] <= frame->floor.height)
         return;
     glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
     glViewport(0, 0, frame->width, frame->height);
-    glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor_light);
+    glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor.light);
     glUseProgram(backdrop->shadow_program);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
-void backdrop_draw(Backdrop *backdrop, const Frame *frame)
+static void backdrop_draw(void *state, Picture *picture)
 {
+    Backdrop *backdrop = state;
+    const Frame *frame = &picture->frame;
+    target_begin(frame->target);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     glBindVertexArray(backdrop->vertex_array);
     copy_kept(backdrop, frame);
     shade_floor(backdrop, frame);
 }
+
+static const EffectState backdrop_state = {
+    .size = sizeof(Backdrop), .prepare = backdrop_prepare, .destroy = backdrop_destroy};
+
+const Effect effect_backdrop = {
+    .name = "backdrop", .stage = STAGE_BACKDROP, .state = &backdrop_state, .draw = backdrop_draw};
+
+/* The shadow maps, seen from the light; spheres.frag and the floor read the maps. Solids have a separate
+   map, present only in scenes with solids: shadows of solids are full at once, while the fluid's own shadow
+   fades with depth. */
+
+typedef struct Shadow {
+    unsigned framebuffer, map;             /* depth, SHADOW_MAP_TEXELS squared */
+    unsigned floor_framebuffer, floor_map; /* light left on the floor, FLOOR_MAP_TEXELS squared */
+    unsigned floor_program, vertex_array;
+    unsigned solid_framebuffer, solid_map, solid_floor_program; /* 0 without solids */
+} Shadow;
 
 /* Both maps extend beyond all shadows, so the border texels are right for everything outside. */
 static GLuint create_map(GLenum format, GLint filter, int texels, const char *label)
@@ -169,17 +210,16 @@ static GLuint create_floor_program(const char *label, const char *defines, Error
     return program_create(label, stages, defines, error);
 }
 
-bool shadow_create(Shadow *shadow, Error *error)
+static bool shadow_create(Shadow *shadow, Error *error)
 {
-    *shadow = (Shadow){0};
+    if (shadow->floor_program)
+        return true;
     shadow->map = create_map(GL_DEPTH_COMPONENT32F, GL_NEAREST, SHADOW_MAP_TEXELS, "shadow map");
     shadow->framebuffer = create_framebuffer(GL_DEPTH_ATTACHMENT, shadow->map, "shadow");
     shadow->floor_map = create_map(GL_R32F, GL_LINEAR, FLOOR_MAP_TEXELS, "floor shadow map");
     shadow->floor_framebuffer = create_framebuffer(GL_COLOR_ATTACHMENT0, shadow->floor_map, "floor shadow");
     glCreateVertexArrays(1, &shadow->vertex_array);
     shadow->floor_program = create_floor_program("floor shadow", NULL, error);
-    if (!shadow->floor_program)
-        shadow_destroy(shadow);
     return shadow->floor_program != 0;
 }
 
@@ -191,14 +231,13 @@ static void drop_solids(Shadow *shadow)
     shadow->solid_framebuffer = shadow->solid_map = shadow->solid_floor_program = 0;
 }
 
-bool shadow_update_solids(Shadow *shadow, bool solids, Error *error)
+static bool shadow_prepare(void *state, const Subject *subject, Error *error)
 {
-    if (solids == (shadow->solid_map != 0))
+    Shadow *shadow = state;
+    if (!shadow_create(shadow, error))
+        return false;
+    if (subject->world->solid_count == 0 || shadow->solid_map)
         return true;
-    if (!solids) {
-        drop_solids(shadow);
-        return true;
-    }
     shadow->solid_floor_program = create_floor_program("floor shadow, solids", "#define SOLIDS 1\n", error);
     if (!shadow->solid_floor_program)
         return false;
@@ -207,8 +246,16 @@ bool shadow_update_solids(Shadow *shadow, bool solids, Error *error)
     return true;
 }
 
-void shadow_destroy(Shadow *shadow)
+static void shadow_release(void *state, const Subject *subject)
 {
+    Shadow *shadow = state;
+    if (subject->world->solid_count == 0 && shadow->solid_map)
+        drop_solids(shadow);
+}
+
+static void shadow_destroy(void *state)
+{
+    Shadow *shadow = state;
     drop_solids(shadow);
     glDeleteFramebuffers(1, &shadow->framebuffer);
     glDeleteFramebuffers(1, &shadow->floor_framebuffer);
@@ -216,7 +263,6 @@ void shadow_destroy(Shadow *shadow)
     glDeleteTextures(1, &shadow->floor_map);
     glDeleteVertexArrays(1, &shadow->vertex_array);
     glDeleteProgram(shadow->floor_program);
-    *shadow = (Shadow){0};
 }
 
 static void begin_map(GLuint framebuffer)
@@ -233,28 +279,54 @@ static void begin_map(GLuint framebuffer)
     glDisable(GL_CULL_FACE);
 }
 
-void shadow_begin(const Shadow *shadow)
+static bool has_solids(const Picture *picture)
 {
-    begin_map(shadow->framebuffer);
+    return picture->frame.world->solid_count > 0;
 }
 
-void shadow_begin_solids(const Shadow *shadow)
+static void draw_solid_shadow(void *state, Picture *picture)
 {
+    const Shadow *shadow = state;
     begin_map(shadow->solid_framebuffer);
+    solids_cast(picture);
 }
 
-void shadow_end(const Shadow *shadow, const Frame *frame)
+/* Draws the shadow on the floor if the frame has a floor. */
+static void shade_floor_map(const Shadow *shadow, const Frame *frame)
 {
-    glDisable(GL_DEPTH_TEST);
-    glBindTextureUnit(SHADOW_UNIT, shadow->map);
-    if (shadow->solid_map)
-        glBindTextureUnit(SOLID_SHADOW_UNIT, shadow->solid_map);
-    if (frame->floor_radius <= 0)
+    if (frame->floor.radius <= 0)
         return;
     glBindFramebuffer(GL_FRAMEBUFFER, shadow->floor_framebuffer);
     glViewport(0, 0, FLOOR_MAP_TEXELS, FLOOR_MAP_TEXELS);
     glUseProgram(shadow->solid_map ? shadow->solid_floor_program : shadow->floor_program);
-    glUniform1f(CLEAR_AT, frame->clear);
+    glUniform1f(CLEAR_AT, frame->fluid.clear);
     glBindVertexArray(shadow->vertex_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
+
+/* Leaves the maps bound to texture units: 0, and 4 for solids. */
+static void draw_shadow(void *state, Picture *picture)
+{
+    const Shadow *shadow = state;
+    begin_map(shadow->framebuffer);
+    if (picture->view)
+        view_cast(picture->view, picture->particles, &picture->frame);
+    glDisable(GL_DEPTH_TEST);
+    glBindTextureUnit(SHADOW_UNIT, shadow->map);
+    if (shadow->solid_map)
+        glBindTextureUnit(SOLID_SHADOW_UNIT, shadow->solid_map);
+    shade_floor_map(shadow, &picture->frame);
+    picture->frame.floor.light = shadow->floor_map;
+}
+
+static const EffectState shadow_state = {
+    .size = sizeof(Shadow), .prepare = shadow_prepare, .release = shadow_release, .destroy = shadow_destroy};
+
+const Effect effect_solid_shadow = {.name = "solid_shadow",
+                                    .stage = STAGE_SHADOW,
+                                    .state = &shadow_state,
+                                    .wanted = has_solids,
+                                    .draw = draw_solid_shadow};
+
+const Effect effect_shadow = {
+    .name = "shadow", .stage = STAGE_SHADOW, .state = &shadow_state, .draw = draw_shadow};

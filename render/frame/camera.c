@@ -1,5 +1,5 @@
 /* Cameras: matrices, automatic placement, projection, and motion along a path. */
-#include "render/frame/camera.h"
+#include "render/frame/frame.h"
 
 #include <cglm/cglm.h>
 #include <math.h>
@@ -259,11 +259,6 @@ static CameraDef along_path(const ViewDef *def, double time)
         key++;
     const bool outside = key == last || time <= def->camera_path[0].time;
     return outside ? def->camera_path[key].at : between(def, key, time);
-}
-
-bool camera_moves(const ViewDef *def)
-{
-    return def->camera_turn != 0 || def->camera_path_count > 0;
 }
 
 void camera_stop(ViewDef *def)

@@ -1,7 +1,9 @@
-#include "render/frame/passes.h"
+/* The edges of the box, and what lies over a view: blends colour and tests depth; writes depth if
+   Frame.depths. */
+#include "render/frame/effect.h"
+#include "render/frame/view.h"
 #include "shaders/shared/bindings.h"
-#include "sim/gpu/gl_context.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -42,7 +44,7 @@ void box_edges_destroy(BoxEdges *edges)
 static void draw_edges(const BoxEdges *edges, GLuint program, const Frame *frame, bool behind)
 {
     const float part = (float)frame->height / 720; /* 1 for a picture 720 pixels high */
-    const float width = frame->glass ? fmaxf(2, 3 * part) : fmaxf(1.5F, 1.5F * part);
+    const float width = frame_glass(frame) ? fmaxf(2, 3 * part) : fmaxf(1.5F, 1.5F * part);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, behind ? GL_ONE : GL_ZERO,
                         behind ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);
@@ -62,7 +64,7 @@ static void begin_edges(const Frame *frame, GLuint framebuffer)
     glDepthMask(frame->depths);
 }
 
-void box_edges_draw(const BoxEdges *edges, const Frame *frame)
+static void box_edges_draw(const BoxEdges *edges, const Frame *frame)
 {
     begin_edges(frame, frame->target->framebuffer);
     draw_edges(edges, edges->program, frame, false);
@@ -73,13 +75,6 @@ static void box_edges_draw_far(const BoxEdges *edges, const Frame *frame, unsign
 {
     begin_edges(frame, framebuffer);
     draw_edges(edges, edges->program, frame, true);
-}
-
-void box_edges_draw_upscaled(const BoxEdges *edges, unsigned program, const Frame *frame, unsigned depth)
-{
-    glBindTextureUnit(COARSE_DEPTH_UNIT, depth);
-    glDisable(GL_DEPTH_TEST);
-    draw_edges(edges, program, frame, false);
 }
 
 static GLuint create_copy(GLenum format, const Target *target, GLint filter, const char *label)
@@ -139,7 +134,7 @@ void background_copy_make_edges(BackgroundCopy *background, const BoxEdges *edge
     glClearNamedFramebufferfv(background->framebuffer, GL_COLOR, 0, nothing);
     draw_far_edges(background, edges, frame);
     glBindTextureUnit(BEHIND_COLOR_UNIT, background->color);
-    glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor_light);
+    glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor.light);
 }
 
 void background_copy_make(BackgroundCopy *background, const BoxEdges *edges, const Frame *frame)
@@ -151,23 +146,29 @@ void background_copy_make(BackgroundCopy *background, const BoxEdges *edges, con
     draw_far_edges(background, edges, frame);
     glBindTextureUnit(BEHIND_COLOR_UNIT, background->color);
     glBindTextureUnit(BEHIND_DEPTH_UNIT, background->depth);
-    glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor_light);
+    glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor.light);
+}
+
+static void depth_destroy(void *state)
+{
+    OverlayDepth *over = state;
+    glDeleteFramebuffers(1, &over->framebuffer);
+    glDeleteTextures(1, &over->depth);
+    *over = (OverlayDepth){0};
 }
 
 static bool update_depth(OverlayDepth *over, const Target *target)
 {
     if (over->framebuffer && over->width == target->width && over->height == target->height)
         return true;
-    overlay_depth_destroy(over);
+    depth_destroy(over);
     over->width = target->width;
     over->height = target->height;
     glCreateTextures(GL_TEXTURE_2D, 1, &over->depth);
     gl_debug_errors(); /* drops earlier errors: the query below is for this texture */
-    gl_debug_asks_for_memory(true);
     glTextureStorage2D(over->depth, 1, GL_DEPTH_COMPONENT32F, over->width, over->height);
-    gl_debug_asks_for_memory(false);
     if (gl_errors_take(0) > 0) {
-        overlay_depth_destroy(over);
+        depth_destroy(over);
         return false;
     }
     glTextureParameteri(over->depth, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -180,7 +181,9 @@ static bool update_depth(OverlayDepth *over, const Target *target)
     return true;
 }
 
-bool overlay_depth_begin(OverlayDepth *over, const Target *target, Target *to)
+/* Copies the target's present depths; `to`: a target without colour, for the overlays' and edges' depths.
+   Returns false if the driver has no memory. */
+static bool begin_depth(OverlayDepth *over, const Target *target, Target *to)
 {
     const int width = target->width, height = target->height;
     if (!update_depth(over, target))
@@ -195,9 +198,97 @@ bool overlay_depth_begin(OverlayDepth *over, const Target *target, Target *to)
     return true;
 }
 
-void overlay_depth_destroy(OverlayDepth *over)
+/* ---- the effects ---- */
+
+static bool edges_prepare(void *state, const Subject *subject, Error *error)
 {
-    glDeleteFramebuffers(1, &over->framebuffer);
-    glDeleteTextures(1, &over->depth);
-    *over = (OverlayDepth){0};
+    const BoxEdges *edges = state;
+    (void)subject;
+    return edges->program || box_edges_create(state, error);
 }
+
+static void edges_destroy(void *state)
+{
+    box_edges_destroy(state);
+}
+
+static const EffectState edges_state = {
+    .size = sizeof(BoxEdges), .prepare = edges_prepare, .destroy = edges_destroy};
+
+static bool edges_within_wanted(const Picture *picture)
+{
+    return picture_has_front(picture) && picture_has_edges(picture);
+}
+
+static void draw_edges_within(void *state, Picture *picture)
+{
+    box_edges_draw(state, &picture->frame);
+}
+
+const Effect effect_edges_within = {.name = "edges_within",
+                                    .stage = STAGE_OVERLAY,
+                                    .state = &edges_state,
+                                    .wanted = edges_within_wanted,
+                                    .draw = draw_edges_within};
+
+static bool edges_wanted(const Picture *picture)
+{
+    return picture_has_edges(picture) && !picture_has_front(picture);
+}
+
+/* Draws into the full resolution, whose colours are encoded, hidden by the depth of the coarse picture. */
+static void draw_edges_upscaled(const BoxEdges *edges, const Upscale *coarse, const Frame *frame)
+{
+    glBindTextureUnit(COARSE_DEPTH_UNIT, coarse->target.depth);
+    glDisable(GL_DEPTH_TEST);
+    draw_edges(edges, coarse->edges, frame, false);
+}
+
+static void draw_edges_over(void *state, Picture *picture)
+{
+    if (picture->coarse)
+        draw_edges_upscaled(state, picture->coarse, &picture->frame);
+    else
+        box_edges_draw(state, &picture->frame);
+}
+
+const Effect effect_edges = {.name = "edges",
+                             .stage = STAGE_OVERLAY,
+                             .state = &edges_state,
+                             .wanted = edges_wanted,
+                             .draw = draw_edges_over};
+
+static const EffectState depth_state = {.size = sizeof(OverlayDepth), .destroy = depth_destroy};
+
+static bool depth_wanted(const Picture *picture)
+{
+    return picture_has_front(picture) &&
+           (picture_has_edges(picture) || overlays_wanted(picture->overlays, &picture->frame));
+}
+
+static void draw_depth(void *state, Picture *picture)
+{
+    OverlayDepth *over = state;
+    Frame depths = picture->frame;
+    Target target;
+    picture->frame.over = over;
+    if (!begin_depth(over, depths.target, &target))
+        return;
+    const bool overlays = overlays_wanted(picture->overlays, &depths);
+    depths.target = &target;
+    depths.depths = true;
+    if (overlays)
+        overlays_draw(picture->overlays, picture->particles, &depths);
+    if (picture_has_edges(picture))
+        GL_STAGE(depths.timer, STAGE_OVERLAY)
+        {
+            box_edges_draw(effect_state(picture->states, &edges_state), &depths);
+        }
+    over->coarse = overlays && overlays_unfinished(picture->overlays);
+}
+
+const Effect effect_overlay_depth = {.name = "overlay_depth",
+                                     .stage = STAGE_COUNT,
+                                     .state = &depth_state,
+                                     .wanted = depth_wanted,
+                                     .draw = draw_depth};

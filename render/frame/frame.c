@@ -153,13 +153,13 @@ static void make_ranges(Frame *frame, const ParticleBuffers *particles)
 {
     const ViewDef *def = frame->def;
     const ScalarRange *found = &particles->range[view_color_by(def)];
-    range_of(found, def->range_auto, def->range_symmetric, def->range, frame->range);
-    frame->beyond[0] = def->range_auto && found->least < frame->range[0];
-    frame->beyond[1] = def->range_auto && found->greatest > frame->range[1];
-    curve_range(&def->opacity, particles, frame->opacity_range);
-    curve_range(&def->size, particles, frame->size_range);
-    frame->shown = scalar_name(view_color_by(def));
-    frame->shown_unit = scalar_unit(view_color_by(def));
+    range_of(found, def->range_auto, def->range_symmetric, def->range, frame->colors.range);
+    frame->colors.beyond[0] = def->range_auto && found->least < frame->colors.range[0];
+    frame->colors.beyond[1] = def->range_auto && found->greatest > frame->colors.range[1];
+    curve_range(&def->opacity, particles, frame->curves.opacity);
+    curve_range(&def->size, particles, frame->curves.size);
+    frame->colors.name = scalar_name(view_color_by(def));
+    frame->colors.unit = scalar_unit(view_color_by(def));
 }
 
 /* The light comes from the left, the front and above the automatic camera. The shadow map covers the ball
@@ -170,27 +170,27 @@ static void make_light(Frame *frame, const double size[3], const float center[3]
     static const float side[3] = {0.9029F, 0.4299F, 0}, up[3] = {-0.1576F, 0.3310F, -0.9304F};
     const float *axes[3] = {side, up, to_light};
     double diagonal = sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]);
-    memcpy(frame->to_light, to_light, sizeof to_light);
-    frame->light_depth = (float)(1.1 * diagonal);
-    memset(frame->world_to_light, 0, sizeof frame->world_to_light);
-    frame->world_to_light[15] = 1;
+    memcpy(frame->light.to, to_light, sizeof to_light);
+    frame->light.depth = (float)(1.1 * diagonal);
+    memset(frame->light.from_world, 0, sizeof frame->light.from_world);
+    frame->light.from_world[15] = 1;
     for (int row = 0; row < 3; row++) {
         float middle = 0;
         for (int k = 0; k < 3; k++) {
-            frame->world_to_light[4 * k + row] = axes[row][k] / frame->light_depth;
+            frame->light.from_world[4 * k + row] = axes[row][k] / frame->light.depth;
             middle += axes[row][k] * center[k];
         }
-        frame->world_to_light[12 + row] = 0.5F - middle / frame->light_depth;
+        frame->light.from_world[12 + row] = 0.5F - middle / frame->light.depth;
     }
 }
 
 /* Widens low .. high to hold the shadow of a ball on the floor; world frame. */
 static void add_shadow(const Frame *frame, const float at[3], float radius, float low[2], float high[2])
 {
-    const float drop = (at[1] - frame->floor_height) / frame->to_light[1], wide = radius / frame->to_light[1];
+    const float drop = (at[1] - frame->floor.height) / frame->light.to[1], wide = radius / frame->light.to[1];
     for (int k = 0; k < 2; k++) {
-        low[k] = fminf(low[k], at[2 * k] - drop * frame->to_light[2 * k] - wide);
-        high[k] = fmaxf(high[k], at[2 * k] - drop * frame->to_light[2 * k] + wide);
+        low[k] = fminf(low[k], at[2 * k] - drop * frame->light.to[2 * k] - wide);
+        high[k] = fmaxf(high[k], at[2 * k] - drop * frame->light.to[2 * k] + wide);
     }
 }
 
@@ -204,7 +204,7 @@ static void add_solids(const Frame *frame, double time, float low[2], float high
         for (int k = 0; k < 3; k++)
             at[k] = (float)pose.position[k];
         matrix_transform(frame->box_to_world, at, at);
-        matrix_transform(frame->world_to_light, at, in_light);
+        matrix_transform(frame->light.from_world, at, in_light);
         if (fabsf(in_light[0] - 0.5F) < 0.5F && fabsf(in_light[1] - 0.5F) < 0.5F)
             add_shadow(frame, at, (float)solid_reach(&frame->world->solids[i]), low, high);
     }
@@ -221,10 +221,10 @@ static void make_floor_map(Frame *frame, const double size[3], double time)
         add_shadow(frame, at, 0, low, high);
     }
     add_solids(frame, time, low, high);
-    float margin = 1.5F * (LIGHT_RADIUS * frame->light_depth + frame->particle_radius);
+    float margin = 1.5F * (LIGHT_RADIUS * frame->light.depth + frame->radii.drawn);
     for (int k = 0; k < 2; k++) {
-        frame->floor_map_corner[k] = low[k] - margin;
-        frame->floor_map_size[k] = high[k] - low[k] + 2 * margin;
+        frame->floor.map_corner[k] = low[k] - margin;
+        frame->floor.map_size[k] = high[k] - low[k] + 2 * margin;
     }
 }
 
@@ -234,51 +234,45 @@ static void make_floor(Frame *frame, const double size[3], const BoxState *box, 
     double diagonal = sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]);
     float anchor[3];
     camera_anchor(size, box, anchor);
-    frame->floor_height = (float)(-0.045 * diagonal); /* a gap: the box casts a visible shadow */
-    frame->floor_center[0] = anchor[0];
-    frame->floor_center[1] = anchor[2];
-    frame->floor_radius = frame->def->floor ? (float)(4.0 * diagonal) : 0;
+    frame->floor.height = (float)(-0.045 * diagonal); /* a gap: the box casts a visible shadow */
+    frame->floor.center[0] = anchor[0];
+    frame->floor.center[1] = anchor[2];
+    frame->floor.radius = frame->def->floor ? (float)(4.0 * diagonal) : 0;
     make_floor_map(frame, size, time);
 }
 
 /* The bounds of the box widened by particle_reach: contains a cube around each sphere. */
 static void make_bounds(Frame *frame, const double size[3])
 {
-    const float r = frame->particle_reach, *tangent = frame->camera.tangent, *centre = frame->camera.centre;
+    const float r = frame->radii.reach, *tangent = frame->camera.tangent, *centre = frame->camera.centre;
     float box_to_eye[16], low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     matrix_multiply(frame->camera.view, frame->box_to_world, box_to_eye);
-    frame->nearest = INFINITY;
-    frame->farthest = -INFINITY;
+    frame->extent.nearest = INFINITY;
+    frame->extent.farthest = -INFINITY;
     for (int corner = 0; corner < 8; corner++) {
         float at[3] = {((corner & 1) ? 1.0F : -1.0F) * ((float)size[0] / 2 + r),
                        (corner & 2) ? (float)size[1] + r : -r,
                        ((corner & 4) ? 1.0F : -1.0F) * ((float)size[2] / 2 + r)};
         matrix_transform(box_to_eye, at, at);
-        frame->nearest = fminf(frame->nearest, -at[2]);
-        frame->farthest = fmaxf(frame->farthest, -at[2]);
+        frame->extent.nearest = fminf(frame->extent.nearest, -at[2]);
+        frame->extent.farthest = fmaxf(frame->extent.farthest, -at[2]);
         for (int k = 0; k < 2; k++) {
             low[k] = fminf(low[k], at[k] / (-at[2] * tangent[k]) + centre[k]);
             high[k] = fmaxf(high[k], at[k] / (-at[2] * tangent[k]) + centre[k]);
         }
     }
-    bool before = frame->nearest > frame->camera.near_plane;
+    bool before = frame->extent.nearest > frame->camera.near_plane;
     for (int k = 0; k < 2; k++) {
-        frame->bounds[2 * k] = before ? fmaxf(-1, fminf(low[k], 1)) : -1;
-        frame->bounds[2 * k + 1] = before ? fmaxf(-1, fminf(high[k], 1)) : 1;
+        frame->extent.bounds[2 * k] = before ? fmaxf(-1, fminf(low[k], 1)) : -1;
+        frame->extent.bounds[2 * k + 1] = before ? fmaxf(-1, fminf(high[k], 1)) : 1;
     }
-    frame->all_in_view = before && low[0] > -1 && low[1] > -1 && high[0] < 1 && high[1] < 1;
+    frame->extent.all_in_view = before && low[0] > -1 && low[1] > -1 && high[0] < 1 && high[1] < 1;
 }
 
 double frame_slab_depth(const ParticleBuffers *particles)
 {
     const double depth = particles->box_size[2];
     return fabs(depth - particles->spacing) < 1e-6 * depth ? depth : 0;
-}
-
-ParticleRadii frame_ball_radii(const ViewDef *def, const ParticleBuffers *particles, double spacings)
-{
-    const float radius = (float)((def->radius > 0 ? def->radius : spacings) * particles->spacing);
-    return (ParticleRadii){radius, radius, radius};
 }
 
 /* Two fifths of the longest side; in two dimensions the depth of the one layer, since light passes no more
@@ -298,9 +292,7 @@ void frame_make(Frame *frame, const Subject *subject, const ParticleBuffers *par
                      .world = subject->world,
                      .floating = particles->floating,
                      .target = target,
-                     .particle_radius = radii.drawn,
-                     .particle_reach = radii.reach,
-                     .shadow_radius = radii.shadow};
+                     .radii = radii};
     const ViewDef seen = camera_at(def, particles->time);
     camera_make(&seen, particles->box_size, &particles->box, (double)target->width / target->height, covered,
                 &frame->camera);
@@ -309,19 +301,29 @@ void frame_make(Frame *frame, const Subject *subject, const ParticleBuffers *par
     matrix_transform(frame->box_to_world, middle, center);
     make_light(frame, particles->box_size, center);
     frame->slab = frame_slab_depth(particles);
-    frame->attenuation = usual_attenuation(particles->box_size, frame->slab);
+    frame->fluid.attenuation = usual_attenuation(particles->box_size, frame->slab);
     make_bounds(frame, particles->box_size);
     make_floor(frame, particles->box_size, &particles->box, particles->time);
     make_ranges(frame, particles);
-    frame->by_fluid = view_color_by(def) == SCALAR_FLUID || !particles->scalar[view_color_by(def)].buffer;
+    frame->colors.by_fluid =
+        view_color_by(def) == SCALAR_FLUID || !particles->scalar[view_color_by(def)].buffer;
+}
+
+/* With `auto`, a picture without a clear fluid surface (an intermediate stage of the view) has lines. */
+FrameGlass frame_glass(const Frame *frame)
+{
+    const ViewDef *def = frame->def;
+    const bool glass = view_has_glass(def) && !frame->flat && !(frame->slab > 0) &&
+                       (def->walls == VIEW_WALLS_GLASS || frame->fluid.clear > 0);
+    return !glass ? GLASS_NONE : def->drawn_quality == VIEW_DRAFT ? GLASS_EDGES : GLASS_PANES;
 }
 
 void frame_bounds(const Frame *frame, int part[4])
 {
     const float size[2] = {(float)frame->width, (float)frame->height};
     for (int k = 0; k < 2; k++) {
-        part[k] = (int)floorf((0.5F + 0.5F * frame->bounds[2 * k]) * size[k]);
-        part[2 + k] = (int)ceilf((0.5F + 0.5F * frame->bounds[2 * k + 1]) * size[k]);
+        part[k] = (int)floorf((0.5F + 0.5F * frame->extent.bounds[2 * k]) * size[k]);
+        part[2 + k] = (int)ceilf((0.5F + 0.5F * frame->extent.bounds[2 * k + 1]) * size[k]);
     }
 }
 
@@ -367,10 +369,10 @@ static void rotate(const float matrix[16], const float v[3], float out[3])
 static void fill_matrices(FrameBlock *block, const Frame *frame)
 {
     matrix_multiply(frame->camera.view, frame->box_to_world, block->box_to_eye);
-    matrix_multiply(frame->world_to_light, frame->box_to_world, block->box_to_light);
-    memcpy(block->world_to_light, frame->world_to_light, sizeof block->world_to_light);
+    matrix_multiply(frame->light.from_world, frame->box_to_world, block->box_to_light);
+    memcpy(block->world_to_light, frame->light.from_world, sizeof block->world_to_light);
     matrix_invert_rigid(frame->camera.view, block->eye_to_world);
-    matrix_multiply(frame->world_to_light, block->eye_to_world, block->eye_to_light);
+    matrix_multiply(frame->light.from_world, block->eye_to_world, block->eye_to_light);
 }
 
 /* Linear light: a white key light, a sky with some of the background's tint, warm light reflected from the
@@ -406,33 +408,33 @@ static void fill_view(FrameBlock *block, const Frame *frame)
 static void fill_light(FrameBlock *block, const Frame *frame)
 {
     static const float up[3] = {0, 1, 0};
-    block->light_depth = frame->light_depth;
+    block->light_depth = frame->light.depth;
     block->light_radius = LIGHT_RADIUS;
     block->shading = frame->plain ? 0 : 1;
-    rotate(frame->camera.view, frame->to_light, block->light_in_eye);
+    rotate(frame->camera.view, frame->light.to, block->light_in_eye);
     rotate(frame->camera.view, up, block->up_in_eye);
 }
 
 static void fill_floor(FrameBlock *block, const Frame *frame)
 {
-    block->floor_height = frame->floor_height;
-    block->floor_radius = frame->floor_radius;
-    memcpy(block->floor_center, frame->floor_center, sizeof block->floor_center);
-    memcpy(block->floor_map_corner, frame->floor_map_corner, sizeof block->floor_map_corner);
-    memcpy(block->floor_map_size, frame->floor_map_size, sizeof block->floor_map_size);
+    block->floor_height = frame->floor.height;
+    block->floor_radius = frame->floor.radius;
+    memcpy(block->floor_center, frame->floor.center, sizeof block->floor_center);
+    memcpy(block->floor_map_corner, frame->floor.map_corner, sizeof block->floor_map_corner);
+    memcpy(block->floor_map_size, frame->floor.map_size, sizeof block->floor_map_size);
 }
 
 static void fill_particles(FrameBlock *block, const Frame *frame, const double box_size[3], double spacing)
 {
     set3(block->box_size, box_size[0], box_size[1], box_size[2]);
-    block->particle_radius = frame->particle_radius;
+    block->particle_radius = frame->radii.drawn;
     block->particle_spacing = (float)spacing;
-    block->shadow_radius = frame->shadow_radius;
-    block->range_low = (float)frame->range[0];
-    block->range_scale = (float)(1 / (frame->range[1] - frame->range[0]));
-    block->by_fluid = frame->by_fluid;
-    block->fluid_clear = frame->clear;
-    block->glass = (uint32_t)frame->glass;
+    block->shadow_radius = frame->radii.shadow;
+    block->range_low = (float)frame->colors.range[0];
+    block->range_scale = (float)(1 / (frame->colors.range[1] - frame->colors.range[0]));
+    block->by_fluid = frame->colors.by_fluid;
+    block->fluid_clear = frame->fluid.clear;
+    block->glass = (uint32_t)frame_glass(frame);
     for (unsigned k = 0; k < 3; k++) /* no front and back walls in two dimensions */
         if (!frame->world->periodic[k] && !(k == 2 && frame->slab > 0))
             block->walled |= 1U << k;

@@ -1,4 +1,4 @@
-#include "render/frame/camera.h"
+#include "render/frame/frame.h"
 
 #include <math.h>
 #include <string.h>
@@ -163,8 +163,8 @@ static bool lift(const Handle *taken, const SightRay *first, const SightRay *now
 static bool drag_along(const Handle *taken, const SightRay *first, const SightRay *now, double at[3])
 {
     double share, began;
-    const bool told = nearest_on_line(taken, first, &began) && nearest_on_line(taken, now, &share);
-    if (told)
+    const bool valid = nearest_on_line(taken, first, &began) && nearest_on_line(taken, now, &share);
+    if (valid)
         share -= began;
     else if (!lift(taken, first, now, &share))
         return false;
@@ -215,8 +215,8 @@ static bool drag_around(const Handle *taken, const SightRay *first, const SightR
 
 bool handle_drag(const Handle *taken, const SightRay *first, const SightRay *now, double at[3])
 {
-    const bool told = taken->way == HANDLE_ALONG    ? drag_along(taken, first, now, at)
-                      : taken->way == HANDLE_WITHIN ? drag_within(taken, first, now, at)
-                                                    : drag_around(taken, first, now, at);
-    return told && isfinite(at[0]) && isfinite(at[1]) && isfinite(at[2]);
+    const bool valid = taken->way == HANDLE_ALONG    ? drag_along(taken, first, now, at)
+                       : taken->way == HANDLE_WITHIN ? drag_within(taken, first, now, at)
+                                                     : drag_around(taken, first, now, at);
+    return valid && isfinite(at[0]) && isfinite(at[1]) && isfinite(at[2]);
 }

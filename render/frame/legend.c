@@ -1,7 +1,8 @@
 #include "render/frame/frame.h"
 
-#include "render/frame/passes.h"
+#include "render/frame/effect.h"
 #include "render/frame/view.h"
+#include "render/ui/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -30,10 +31,10 @@ static void fluid_words(const FluidDef *fluid, char words[NAME_SIZE + 32])
 {
     static const double WATER = 1.0e-3, FAR = 10; /* Pa s, at 20 degrees */
     const double mu = fluid->viscosity;
-    const bool told = looks_like_water(fluid) && fluid->viscosity_table.rows == 0 && mu > 0 &&
-                      (mu >= FAR * WATER || mu <= WATER / FAR);
+    const bool shown = looks_like_water(fluid) && fluid->viscosity_table.rows == 0 && mu > 0 &&
+                       (mu >= FAR * WATER || mu <= WATER / FAR);
     snprintf(words, NAME_SIZE + 32, "%s", fluid->name);
-    if (told)
+    if (shown)
         snprintf(words + strlen(words), 32, ", %.3g Pa s", mu);
 }
 
@@ -169,10 +170,10 @@ static void draw_curves(Text *text, const Frame *frame, float bottom)
     const LegendLayout layout = make_layout(text, frame, 0, bottom);
     const ViewDef *def = frame->def;
     float line = 0;
-    if (frame->curves & VIEW_OPACITY && def->opacity.by != 0)
-        draw_curve(text, &layout, line++, "opacity", &def->opacity, frame->opacity_range);
-    if (frame->curves & VIEW_SIZE && def->size.by != 0)
-        draw_curve(text, &layout, line, "size", &def->size, frame->size_range);
+    if (frame->curves.drawn & VIEW_OPACITY && def->opacity.by != 0)
+        draw_curve(text, &layout, line++, "opacity", &def->opacity, frame->curves.opacity);
+    if (frame->curves.drawn & VIEW_SIZE && def->size.by != 0)
+        draw_curve(text, &layout, line, "size", &def->size, frame->curves.size);
 }
 
 /* Returns the height in letter heights, as does draw_fluids. */
@@ -180,16 +181,16 @@ static float draw_scalar(Text *text, const Frame *frame)
 {
     enum { HEIGHT_EM = 15 };
     char unit[32], title[80];
-    legend_unit(frame->shown_unit, unit);
-    snprintf(title, sizeof title, "%s%s%s", frame->shown, *unit ? ", " : "", unit);
+    legend_unit(frame->colors.unit, unit);
+    snprintf(title, sizeof title, "%s%s%s", frame->colors.name, *unit ? ", " : "", unit);
     const float widest = text_width(text, 1, title) / text_height(text) + 1.6F; /* room for long names */
     LegendLayout layout = make_layout(text, frame, fmaxf(SCALAR_WIDTH_EM, widest), HEIGHT_EM);
     float em = layout.em, x = layout.left + 0.8F * em, y0 = layout.top + 3.0F * em,
           y1 = layout.bottom - 1.0F * em;
     text_rectangle(text, layout.left, layout.top, layout.right, layout.bottom, 0.5F * em, layout.panel);
     text_draw(text, x, layout.top + 0.8F * em, 1, layout.ink, TEXT_LEFT, title);
-    draw_bar(text, frame->def, frame->beyond, x, y0, x + 1.2F * em, y1);
-    draw_ticks(text, &layout, frame->range, x + 1.2F * em, y0, y1);
+    draw_bar(text, frame->def, frame->colors.beyond, x, y0, x + 1.2F * em, y1);
+    draw_ticks(text, &layout, frame->colors.range, x + 1.2F * em, y0, y1);
     return HEIGHT_EM;
 }
 
@@ -233,20 +234,20 @@ static float draw_parts(Text *text, const Frame *frame, float top)
     const float em = text_height(text);
     uint8_t rgb[3 * COLORMAP_SIZE];
     float widest = 0;
-    for (int i = 0; i < frame->part_count; i++)
-        widest = fmaxf(widest, text_width(text, 1, frame->parts[i].words) / em);
-    const float gap = top > 0 ? 0.5F : 0, height = 1.6F * (float)frame->part_count + 0.9F;
+    for (int i = 0; i < frame->colors.part_count; i++)
+        widest = fmaxf(widest, text_width(text, 1, frame->colors.parts[i].words) / em);
+    const float gap = top > 0 ? 0.5F : 0, height = 1.6F * (float)frame->colors.part_count + 0.9F;
     const LegendLayout layout = make_layout(text, frame, widest + 3.3F, top + gap + height);
     const float x = layout.left + 0.8F * em, first = layout.bottom - (height - 0.75F) * em;
     text_rectangle(text, layout.left, layout.bottom - height * em, layout.right, layout.bottom, 0.5F * em,
                    layout.panel);
     const bool bent = colormap_fill_bent(view_colormap(frame->def), &frame->def->color_curve, rgb);
-    for (int i = 0; i < frame->part_count; i++) {
-        const FramePart *part = &frame->parts[i];
+    for (int i = 0; i < frame->colors.part_count; i++) {
+        const FramePart *part = &frame->colors.parts[i];
         const float y = first + 1.6F * (float)i * em;
         if (part->own)
             text_rectangle(text, x, y, x + em, y + em, 0.2F * em, fluid_rgba(part->color));
-        else if (bent && !frame->by_fluid)
+        else if (bent && !frame->colors.by_fluid)
             text_gradient(text, x, y, x + em, y + em, map_color(rgb, 0), map_color(rgb, 255));
         text_draw(text, x + 1.6F * em, y, 1, layout.ink, TEXT_LEFT, part->words);
     }
@@ -256,9 +257,9 @@ static float draw_parts(Text *text, const Frame *frame, float top)
 /* Draws the meaning of the colours; returns the height in letter heights. */
 static float draw_colors(Text *text, const Frame *frame)
 {
-    if (frame->no_colors)
+    if (frame->colors.none)
         return 0;
-    if (!frame->by_fluid)
+    if (!frame->colors.by_fluid)
         return draw_scalar(text, frame);
     return frame->world->fluid_count > 0 ? draw_fluids(text, frame) : 0;
 }
@@ -279,11 +280,11 @@ static size_t line_bytes(Text *text, const char *line, float width)
 }
 
 /* Breaks the note into lines, so that nothing is cut off at the left. */
-static float draw_note(Text *text, const Frame *frame, float top)
+static float draw_note(Text *text, const Frame *frame, const char *note, float top)
 {
     enum { LINE_MOST = 512 };
     const LegendLayout layout = make_layout(text, frame, 0, top);
-    const char *rest = frame->note;
+    const char *rest = note;
     float y = layout.bottom + 0.6F * layout.em;
     while (*rest) {
         char line[LINE_MOST];
@@ -296,25 +297,38 @@ static float draw_note(Text *text, const Frame *frame, float top)
     return (y - layout.bottom) / layout.em - 0.6F;
 }
 
-void legend_line(Text *text, const Frame *frame, float x, float y, const char *line)
+/* Draws a line of text at x, y (pixels from the left and the top) in faint ink. */
+static void draw_line(Text *text, const Frame *frame, float x, float y, const char *line)
 {
     const LegendLayout layout = make_layout(text, frame, 0, 0);
     text_draw(text, x, y, 1, layout.faint, TEXT_LEFT, line);
 }
 
-void legend_draw(Text *text, const Frame *frame, double time)
+/* The overlays' lines, from the lower left corner up, above the line of the time. */
+static void draw_overlay_lines(Text *text, const Picture *picture)
 {
+    const float em = text_height(text), bottom = (float)picture->frame.height;
+    OverlayLine lines[OVERLAY_KINDS_MAX];
+    const int count = overlays_legend(picture->overlays, &picture->frame, lines);
+    for (int i = 0; i < count; i++)
+        draw_line(text, &picture->frame, em, bottom - (3.6F + 1.6F * (float)i) * em, lines[i].words);
+}
+
+static void draw_legend(Text *text, const Picture *picture)
+{
+    const Frame *frame = &picture->frame;
     const float em = text_height(text);
     char label[40];
-    snprintf(label, sizeof label, "%.2f s", time);
-    legend_line(text, frame, em, (float)frame->height - 2 * em, label);
+    snprintf(label, sizeof label, "%.2f s", picture->time);
+    draw_line(text, frame, em, (float)frame->height - 2 * em, label);
     float bottom = draw_colors(text, frame);
-    if (frame->part_count > 0)
+    if (frame->colors.part_count > 0)
         bottom = draw_parts(text, frame, bottom);
-    if (frame->note)
-        bottom += draw_note(text, frame, bottom);
+    if (picture->note)
+        bottom += draw_note(text, frame, picture->note, bottom);
     if (bottom > 0)
         draw_curves(text, frame, bottom);
+    draw_overlay_lines(text, picture);
 }
 
 /* In letter heights: around the words, and between the lines. */
@@ -344,38 +358,66 @@ int title_rows(const Title *title, int height)
     return *title->words ? (int)ceilf(bottom_em(title) * legend_text_pixels(height)) : 0;
 }
 
-void title_draw(Text *text, const Title *title, const Frame *frame)
+/* Leaves room for the legend: wider text is cut and ends with "...". */
+static void draw_title(Text *text, const Title *title, const Frame *frame)
 {
     const uint32_t ink = legend_text_color(frame->def), faint = (ink & 0xffffff00) | 0xb0,
                    panel = legend_text_is_dark(frame->def) ? 0xffffffd0 : 0x101418c0;
     const float em = text_height(text), around = AROUND * em, x = em + around;
     const float legend = (float)legend_width_pixels(frame->def, frame->world, frame->height);
-    const float room = (float)frame->width - legend - 2 * em - 2 * around;
+    const float capacity = (float)frame->width - legend - 2 * em - 2 * around;
     char words[TITLE_SIZE], figures[TITLE_SIZE];
-    if (!*title->words || room <= 0)
+    if (!*title->words || capacity <= 0)
         return;
-    cut_text(text, room, title->words, words);
-    cut_text(text, room, title->figures, figures);
+    cut_text(text, capacity, title->words, words);
+    cut_text(text, capacity, title->figures, figures);
     const float width = fmaxf(text_width(text, 1, words), text_width(text, 1, figures));
     text_rectangle(text, em, em, x + width + around, bottom_em(title) * em, 0.5F * em, panel);
     text_draw(text, x, em + around, 1, ink, TEXT_LEFT, words);
     text_draw(text, x, em + around + (1 + BETWEEN) * em, 1, faint, TEXT_LEFT, figures);
 }
 
-void caption_draw(Text *text, const Frame *frame)
+/* Draws the def's title, `view.title`, in the middle of the free lower edge; smaller if too wide. */
+static void draw_caption(Text *text, const Frame *frame)
 {
     static const float LARGE = 1.6F, LEAST = 0.5F;
     const char *words = frame->def->title;
     const uint32_t ink = legend_text_color(frame->def),
                    panel = legend_text_is_dark(frame->def) ? 0xffffffd0 : 0x101418c0;
     const float em = text_height(text), covered = fmaxf(frame->camera.centre[0], 0);
-    const float room = (float)frame->width * (1 - covered) - 4 * em, wide = text_width(text, LARGE, words);
-    if (!*words || room <= 0)
+    const float capacity = (float)frame->width * (1 - covered) - 4 * em,
+                wide = text_width(text, LARGE, words);
+    if (!*words || capacity <= 0)
         return;
-    const float scale = wide > room ? fmaxf(LARGE * room / wide, LEAST) : LARGE;
+    const float scale = wide > capacity ? fmaxf(LARGE * capacity / wide, LEAST) : LARGE;
     const float middle = (0.5F + 0.5F * covered) * (float)frame->width, half = wide * scale / LARGE / 2;
     const float around = AROUND * em, bottom = (float)frame->height - 1.6F * em, top = bottom - scale * em;
     text_rectangle(text, middle - half - around, top - around, middle + half + around, bottom + around,
                    0.5F * em, panel);
     text_draw(text, middle, top, scale, ink, TEXT_CENTER, words);
 }
+
+bool has_letters(const ViewDef *def, const Title *title)
+{
+    return def->legend || *title->words || *def->title;
+}
+
+static bool words_wanted(const Picture *picture)
+{
+    return has_letters(picture->frame.def, picture->title);
+}
+
+static void draw_words(void *state, Picture *picture)
+{
+    const Frame *frame = &picture->frame;
+    (void)state;
+    text_begin(picture->text, frame->width, frame->height);
+    if (frame->def->legend)
+        draw_legend(picture->text, picture);
+    draw_title(picture->text, picture->title, frame);
+    draw_caption(picture->text, frame);
+    text_end(picture->text);
+}
+
+const Effect effect_words = {
+    .name = "words", .stage = STAGE_OVERLAY, .wanted = words_wanted, .draw = draw_words};

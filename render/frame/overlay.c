@@ -1,4 +1,4 @@
-#include "render/frame/passes.h"
+#include "render/frame/effect.h"
 #include "render/frame/view.h"
 
 #include <assert.h>
@@ -6,24 +6,35 @@
 #include <stdio.h>
 #include <string.h>
 
+size_t overlay_own_offset(int index)
+{
+    int views = 0;
+    while (view_at(views))
+        views++;
+    size_t offset = view_own_offset(views);
+    for (int i = 0; i < index; i++)
+        offset += (overlay_list[i]->def_size + 7) / 8 * 8;
+    return offset;
+}
+
 void *overlay_own_settings(const ViewDef *def, const OverlayKind *kind)
 {
     for (int i = 0; overlay_list[i]; i++)
         if (overlay_list[i] == kind)
-            return (void *)def->of_overlay[i].bytes;
+            return (void *)(def->own.bytes + overlay_own_offset(i));
     return NULL;
 }
 
 static bool shown(const ViewDef *def, int index)
 {
-    return ((const OverlayShow *)(const void *)def->of_overlay[index].bytes)->show;
+    return ((const OverlayShow *)(const void *)(def->own.bytes + overlay_own_offset(index)))->show;
 }
 
 void overlays_default(ViewDef *def)
 {
     for (int i = 0; overlay_list[i]; i++) {
-        assert(i < OVERLAY_KINDS_MAX && overlay_list[i]->def_size <= VIEW_OWN_SIZE);
-        memcpy(def->of_overlay[i].bytes, overlay_list[i]->def, overlay_list[i]->def_size);
+        assert(i < OVERLAY_KINDS_MAX && overlay_own_offset(i + 1) <= VIEW_OWN_SIZE);
+        memcpy(def->own.bytes + overlay_own_offset(i), overlay_list[i]->def, overlay_list[i]->def_size);
     }
 }
 
@@ -150,17 +161,45 @@ int overlays_choose(const ViewDef *def, uint32_t id, ViewSetting settings[VIEW_S
     return 0;
 }
 
-void overlays_legend(const Overlays *overlays, Text *text, const Frame *frame)
+int overlays_legend(const Overlays *overlays, const Frame *frame, OverlayLine lines[OVERLAY_KINDS_MAX])
 {
-    const float em = text_height(text);
-    int lines = 0;
+    int count = 0;
     for (int i = 0; overlay_list[i]; i++) {
-        char line[160] = "";
-        if (overlays->state[i] && frame->flat && lines == 0)
-            snprintf(line, sizeof line, "no overlays on a flat slice");
+        char *line = lines[count].words;
+        *line = 0;
+        if (overlays->state[i] && frame->flat && count == 0)
+            snprintf(line, sizeof lines->words, "no overlays on a flat slice");
         else if (overlays->state[i] && !frame->flat && overlay_list[i]->legend)
-            overlay_list[i]->legend(overlays->state[i], frame, line, sizeof line);
-        if (*line)
-            legend_line(text, frame, em, (float)frame->height - (3.6F + 1.6F * (float)lines++) * em, line);
+            overlay_list[i]->legend(overlays->state[i], frame, line, sizeof lines->words);
+        count += *line != 0;
     }
+    return count;
 }
+
+bool overlays_wanted(const Overlays *overlays, const Frame *frame)
+{
+    return overlays_any(overlays) && !frame->flat && !(frame->slab > 0);
+}
+
+static bool wanted(const Picture *picture)
+{
+    return overlays_wanted(picture->overlays, &picture->frame);
+}
+
+/* In a two-dimensional scene overlays lie over everything. */
+static bool wanted_flat(const Picture *picture)
+{
+    return overlays_any(picture->overlays) && !picture->frame.flat && picture->frame.slab > 0;
+}
+
+static void draw(void *state, Picture *picture)
+{
+    (void)state;
+    overlays_draw(picture->overlays, picture->particles, &picture->frame);
+}
+
+const Effect effect_overlays = {
+    .name = "overlays", .stage = STAGE_COUNT, .want = overlays_want, .wanted = wanted, .draw = draw};
+
+const Effect effect_overlays_flat = {
+    .name = "overlays_flat", .stage = STAGE_COUNT, .wanted = wanted_flat, .draw = draw};

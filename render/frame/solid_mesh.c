@@ -19,14 +19,14 @@ typedef struct MeshPen {
     bool whole; /* no allocation has failed so far */
 } MeshPen;
 
-static void *grown(void *items, size_t *room, size_t wanted, size_t size)
+static void *grown(void *items, size_t *capacity, size_t wanted, size_t size)
 {
-    if (wanted <= *room)
+    if (wanted <= *capacity)
         return items;
-    const size_t more = wanted > 2 * *room ? wanted : 2 * *room;
+    const size_t more = wanted > 2 * *capacity ? wanted : 2 * *capacity;
     void *moved = realloc(items, more * size);
     if (moved)
-        *room = more;
+        *capacity = more;
     return moved;
 }
 

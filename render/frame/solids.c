@@ -1,6 +1,9 @@
-#include "render/frame/passes.h"
+/* Solids: lit and opaque, drawn before every view, so that the view's depth test hides covered parts. Reads
+   the def's solids at the state's time; writes the target's colour and depth, and the solids' shadow map.
+   Has objects only in scenes with solids. */
+#include "render/frame/effect.h"
 #include "shaders/shared/solid_block.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -9,39 +12,38 @@
 
 _Static_assert(SOLIDS_DRAWN_MAX == SOLIDS_MAX, "the shaders draw all solids of a scene");
 
-struct Solids {
+typedef struct Solids {
     GLuint program, casting;
     GLuint vertex_array, vertices, indices, poses;
     GLsizei index_count;
     int count; /* solids with a mesh; 0 before the first picture */
     SolidDef shapes[SOLIDS_MAX];
     double slab; /* depth of the flat box when the meshes were made, m; 0: not flat */
-};
+} Solids;
 
-Solids *solids_create(Error *error)
+static bool solids_prepare(void *state, const Subject *subject, Error *error)
 {
-    Solids *solids = calloc(1, sizeof *solids);
-    if (!solids) {
-        error_set(error, "out of memory for the solids");
-        return NULL;
+    Solids *solids = state;
+    if (subject->world->solid_count == 0 || solids->casting)
+        return true;
+    if (!solids->poses) {
+        glCreateVertexArrays(1, &solids->vertex_array);
+        glCreateBuffers(1, &solids->poses);
+        glObjectLabel(GL_BUFFER, solids->poses, -1, "solid poses");
+        glNamedBufferStorage(solids->poses, sizeof(SolidBlock), NULL, GL_DYNAMIC_STORAGE_BIT);
     }
-    glCreateVertexArrays(1, &solids->vertex_array);
-    glCreateBuffers(1, &solids->poses);
-    glObjectLabel(GL_BUFFER, solids->poses, -1, "solid poses");
-    glNamedBufferStorage(solids->poses, sizeof(SolidBlock), NULL, GL_DYNAMIC_STORAGE_BIT);
-    solids->program = program_create_pair("solids", "render/solids.vert", "render/solids.frag", error);
+    if (!solids->program)
+        solids->program = program_create_pair("solids", "render/solids.vert", "render/solids.frag", error);
     if (solids->program)
         solids->casting = program_create_pair("solids shadow", "render/solids_shadow.vert",
                                               "render/depth_only.frag", error);
-    if (solids->casting)
-        return solids;
-    solids_destroy(solids);
-    return NULL;
+    return solids->casting != 0;
 }
 
-void solids_destroy(Solids *solids)
+static void solids_destroy(void *state)
 {
-    if (!solids)
+    Solids *solids = state;
+    if (!solids->poses)
         return;
     glDeleteProgram(solids->program);
     glDeleteProgram(solids->casting);
@@ -49,7 +51,13 @@ void solids_destroy(Solids *solids)
     glDeleteBuffers(1, &solids->vertices);
     glDeleteBuffers(1, &solids->indices);
     glDeleteBuffers(1, &solids->poses);
-    free(solids);
+    *solids = (Solids){0};
+}
+
+static void solids_release(void *state, const Subject *subject)
+{
+    if (subject->world->solid_count == 0)
+        solids_destroy(state);
 }
 
 static GLuint create_buffer(const void *data, size_t size, const char *label)
@@ -123,7 +131,9 @@ void solid_to_world(const SolidDef *solid, int number, const ParticleBuffers *pa
     matrix_multiply(frame->box_to_world, to_world, to_world);
 }
 
-void solids_update_poses(Solids *solids, const ParticleBuffers *particles, const Frame *frame)
+/* Makes the meshes again only if shapes, or the depth of a flat box, have changed. If memory is short, there
+   are no meshes. */
+static void update_poses(Solids *solids, const ParticleBuffers *particles, const Frame *frame)
 {
     const WorldDef *world = frame->world;
     SolidBlock block = {0};
@@ -132,7 +142,7 @@ void solids_update_poses(Solids *solids, const ParticleBuffers *particles, const
         float to_world[16];
         solid_to_world(&world->solids[i], i, particles, frame, to_world);
         matrix_multiply(frame->camera.view, to_world, block.solids[i].to_eye);
-        matrix_multiply(frame->world_to_light, to_world, block.solids[i].to_light);
+        matrix_multiply(frame->light.from_world, to_world, block.solids[i].to_light);
         for (int k = 0; k < 3; k++)
             block.solids[i].color[k] = world->solids[i].color[k];
     }
@@ -152,17 +162,15 @@ static void draw_meshes(const Solids *solids, GLuint program, GLenum hidden)
     glDisable(GL_CULL_FACE);
 }
 
-/* Draws the sides away from the light. Lit sides are a wall's thickness nearer to the light, so the
-   comparison needs almost no bias. Depths are clamped: solids outside the map's depth range still cast. */
-void solids_cast(const Solids *solids)
+static bool solids_wanted(const Picture *picture)
 {
-    glEnable(GL_DEPTH_CLAMP);
-    draw_meshes(solids, solids->casting, GL_FRONT);
-    glDisable(GL_DEPTH_CLAMP);
+    return picture->frame.world->solid_count > 0 && !picture->frame.no_solids;
 }
 
-void solids_draw(const Solids *solids, const Frame *frame)
+static void solids_draw(void *state, Picture *picture)
 {
+    const Solids *solids = state;
+    const Frame *frame = &picture->frame;
     glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
     glViewport(0, 0, frame->width, frame->height);
     glEnable(GL_DEPTH_TEST);
@@ -170,4 +178,24 @@ void solids_draw(const Solids *solids, const Frame *frame)
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
     draw_meshes(solids, solids->program, GL_BACK);
+}
+
+static const EffectState solids_state = {
+    .size = sizeof(Solids), .prepare = solids_prepare, .release = solids_release, .destroy = solids_destroy};
+
+const Effect effect_solids = {.name = "solids",
+                              .stage = STAGE_SOLIDS,
+                              .state = &solids_state,
+                              .wanted = solids_wanted,
+                              .draw = solids_draw};
+
+/* Lit sides are a wall's thickness nearer to the light than the sides drawn, so the comparison needs almost
+   no bias. Depths are clamped: solids outside the map's depth range still cast. */
+void solids_cast(const Picture *picture)
+{
+    Solids *solids = effect_state(picture->states, &solids_state);
+    update_poses(solids, picture->particles, &picture->frame);
+    glEnable(GL_DEPTH_CLAMP);
+    draw_meshes(solids, solids->casting, GL_FRONT);
+    glDisable(GL_DEPTH_CLAMP);
 }

@@ -1,6 +1,6 @@
-#include "render/frame/passes.h"
+#include "render/frame/effect.h"
 #include "shaders/shared/bindings.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -63,9 +63,10 @@ void upscale_destroy(Upscale *coarse)
     *coarse = (Upscale){.program = 0};
 }
 
-void upscale_draw(const Upscale *coarse, unsigned framebuffer, int width, int height)
+/* Interpolates encoded colours linearly: linear light would cost a software driver twice the time. Leaves
+   sRGB encoding off. */
+static void enlarge(const Upscale *coarse, int width, int height)
 {
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, width, height);
     glDisable(GL_FRAMEBUFFER_SRGB); /* colours are encoded already */
     glDisable(GL_SCISSOR_TEST);
@@ -77,6 +78,16 @@ void upscale_draw(const Upscale *coarse, unsigned framebuffer, int width, int he
     glBindVertexArray(coarse->vertices);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
+
+static void draw_enlarged(void *state, Picture *picture)
+{
+    (void)state;
+    glBindFramebuffer(GL_FRAMEBUFFER, picture->framebuffer);
+    if (picture->coarse)
+        enlarge(picture->coarse, picture->frame.width, picture->frame.height);
+}
+
+const Effect effect_enlarge = {.name = "enlarge", .stage = STAGE_OVERLAY, .draw = draw_enlarged};
 
 void upscale_depth(const Upscale *coarse, const Target *to)
 {

@@ -1,13 +1,13 @@
 /* Views: settings and keys shared by all kinds, quality, and calls of a kind's functions. */
 #include "render/frame/view.h"
+#include "render/frame/effect.h"
 #include "render/frame/frame.h"
 
-#include "render/frame/picture_def.h"
+#include "sim/base/base.h"
 #include "sim/base/key_rows.h"
-#include "sim/base/tables.h"
 #include "sim/flow/flow.h"
-#include "sim/gpu/gl_context.h"
-#include "sim/start/seed.h"
+#include "sim/gpu/gl.h"
+#include "sim/start/start.h"
 #include "slosh/world.h"
 
 #include <assert.h>
@@ -133,7 +133,7 @@ const Key view_frame_keys[] = {
     VEC3("view.camera.to", R | L, "m", -1e7, 1e7, AT(camera.to), "the point looked at"),
     NUMBER("view.camera.fov", L, "degrees", 1, 170, AT(camera.fov_deg), "vertical field of view"),
     NUMBER("view.camera_turn", L, "degrees/s", -3600, 3600, AT(camera_turn), "turns the camera about the vertical through what it looks at, in simulated time"),
-    LIST("view.camera_path", 0, 0, CAMERA_KEYS_MAX, AT(camera_path), AT(camera_path_count), CameraKey, camera_key_init,
+    LIST("view.camera_path", KEY_POINTER, 0, CAMERA_KEYS_MAX, AT(camera_path), AT(camera_path_count), CameraKey, camera_key_init,
          "where the camera flies, in simulated time: keyframes, with a smooth curve through them; it rests at the first one before, at the last one after"),
     NUMBER("view.camera_path[].time", R, "s", 0, 1e6, KEYFRAME(time), "later than that of the one before"),
     VEC3("view.camera_path[].from", R, "m", -1e7, 1e7, KEYFRAME(at.from), "the eye then"),
@@ -143,8 +143,8 @@ const Key view_frame_keys[] = {
     BOOLEAN("view.carries_scene", L, AT(carries_scene), "PNG files carry the scene as text: slosh FILE.png opens it again"),
     CHOICE_OF("view.quality", L | KEY_INDEX, view_quality_names, AT(quality), "draft: fewer cells, pixels and samples, so that a picture is there in time; good: as all keys say; best: more; what is not at its default stays; auto: best in files, draft for clear fluid and filtered splats in the window on a software driver, else good"),
     NUMBER("view.resolution", L, "", 0.05, 1, AT(resolution), "pixels drawn for a pixel shown, each way: less is faster; the box's edges, words and the legend have all of them"),
-    TEXT("view.file", 0, FILE_NAME_SIZE, AT(file), "none", "of an entry of views: it shows a recorded run (.h5part, found from the scene's folder) at the scene's time"),
-    SETTINGS("view.set", VIEW_SET_SIZE, AT(set), "none", "of an entry of views: it shows the scene with these settings, {solver.step.dt: 0.001} and so on, simulated beside it"),
+    FILE_TEXT("view.file", 0, AT(file), "none", "of an entry of views: it shows a recorded run (.h5part, found from the scene's folder) at the scene's time"),
+    SETTINGS("view.set", KEY_POINTER, VIEW_SET_SIZE, AT(set), "none", "of an entry of views: it shows the scene with these settings, {solver.step.dt: 0.001} and so on, simulated beside it"),
     KEYS_END,
 };
 /* clang-format on */
@@ -189,11 +189,19 @@ const ViewKind *view_find(const char *name)
     return NULL;
 }
 
+size_t view_own_offset(int index)
+{
+    size_t offset = 0;
+    for (int i = 0; i < index; i++)
+        offset += (view_at(i)->def_size + 7) / 8 * 8;
+    return offset;
+}
+
 void *view_own_settings(const ViewDef *def, const ViewKind *kind)
 {
     for (int i = 0; view_at(i); i++)
         if (view_at(i) == kind)
-            return (void *)def->of_view[i].bytes;
+            return (void *)(def->own.bytes + view_own_offset(i));
     return NULL;
 }
 
@@ -201,9 +209,9 @@ void views_default(ViewDef *def)
 {
     snprintf(def->kind, sizeof def->kind, "%s", view_at(0)->name);
     for (int i = 0; view_at(i); i++) {
-        assert(view_at(i)->def_size <= VIEW_OWN_SIZE);
+        assert(view_own_offset(i + 1) <= VIEW_OWN_SIZE);
         if (view_at(i)->def)
-            memcpy(def->of_view[i].bytes, view_at(i)->def, view_at(i)->def_size);
+            memcpy(def->own.bytes + view_own_offset(i), view_at(i)->def, view_at(i)->def_size);
     }
 }
 
@@ -268,9 +276,15 @@ const ViewKind *view_kind(const View *view)
     return view->kind;
 }
 
+ParticleRadii view_ball_radii(const ViewDef *def, const ParticleBuffers *particles, double spacings)
+{
+    const float radius = (float)((def->radius > 0 ? def->radius : spacings) * particles->spacing);
+    return (ParticleRadii){radius, radius, radius};
+}
+
 ParticleRadii view_radii(const ViewKind *kind, const ViewDef *def, const ParticleBuffers *particles)
 {
-    ParticleRadii radii = frame_ball_radii(def, particles, kind ? kind->radius : 0);
+    ParticleRadii radii = view_ball_radii(def, particles, kind ? kind->radius : 0);
     if (kind && kind->radii)
         kind->radii(def, particles, &radii);
     return radii;
@@ -389,7 +403,7 @@ void view_want(const ViewDef *def, ParticleWants *wants)
 
 void view_show(const View *view, const ViewDef *def, Frame *frame)
 {
-    frame->curves = view->kind->curves;
+    frame->curves.drawn = view->kind->curves;
     if (view->kind->show)
         view->kind->show(def, frame);
 }
@@ -403,12 +417,6 @@ void view_cast(View *view, const ParticleBuffers *particles, const Frame *frame)
 void view_draw(View *view, const ParticleBuffers *particles, const Frame *frame)
 {
     view->kind->draw(view->state, particles, frame);
-}
-
-void view_draw_front(View *view, const Frame *frame)
-{
-    if (view->kind->draw_front)
-        view->kind->draw_front(view->state, frame);
 }
 
 bool view_unfinished(const View *view)
@@ -441,3 +449,31 @@ ViewProbing view_probing(const View *view, const ViewDef *def)
     static const ViewProbing nothing = {.by = VIEW_PROBE_NOTHING};
     return view->kind->probing ? view->kind->probing(view->state, def) : nothing;
 }
+
+static bool draw_wanted(const Picture *picture)
+{
+    return picture->view != NULL;
+}
+
+static void draw(void *state, Picture *picture)
+{
+    (void)state;
+    view_draw(picture->view, picture->particles, &picture->frame);
+}
+
+const Effect effect_view = {
+    .name = "view", .stage = STAGE_COUNT, .want = view_want, .wanted = draw_wanted, .draw = draw};
+
+bool picture_has_front(const Picture *picture)
+{
+    return picture->view && picture->view->kind->draw_front;
+}
+
+static void draw_front(void *state, Picture *picture)
+{
+    (void)state;
+    picture->view->kind->draw_front(picture->view->state, &picture->frame);
+}
+
+const Effect effect_view_front = {
+    .name = "view_front", .stage = STAGE_COUNT, .wanted = picture_has_front, .draw = draw_front};

@@ -4,13 +4,11 @@
 #define RENDER_FRAME_VIEW_H
 
 #include "render/frame/frame.h"
-
-#include "render/frame/camera.h"
-#include "render/frame/text.h"
+#include "render/ui/text.h"
+#include "sim/base/base.h"
 #include "sim/base/key.h"
-#include "sim/base/memory.h"
 #include "sim/gpu/particle_buffers.h"
-#include "sim/points/fields.h"
+#include "sim/points/points.h"
 #include "slosh/error.h"
 
 /* Views: the ways to show a fluid. One folder per view; the list is render/lists.c. */
@@ -105,7 +103,7 @@ typedef struct ViewProbing {
         VIEW_PROBE_MEAN  /* the mean by the method's kernel (Shepard 1968); for `fluid`, the nearest
                             particle */
     } by;
-    unsigned radii; /* GL buffer of ball radii: one float each, m; 0: all have Frame.particle_radius */
+    unsigned radii; /* GL buffer of ball radii: one float each, m; 0: all have Frame.radii.drawn */
 } ViewProbing;
 
 /* A volume file named in the settings, and the destination of the data. */
@@ -123,7 +121,7 @@ typedef struct ViewKind {
     const Key *keys;         /* own settings, ended by a row without a path; NULL: none */
     const ViewGrade *grades; /* grades of these keys, ended by a row without a path; NULL: none */
     const void *def;         /* defaults of the settings struct */
-    size_t def_size;         /* bytes; at most VIEW_OWN_SIZE */
+    size_t def_size;         /* bytes; of all views and overlays together at most VIEW_OWN_SIZE */
     /* Returns false, with the reason and the key at fault, if no driver can draw the subject; NULL: all
        subjects can be drawn. */
     bool (*check)(const Subject *subject, const char **key, Error *error);
@@ -163,7 +161,7 @@ typedef struct ViewKind {
     void (*cast)(void *state, const ParticleBuffers *particles, const Frame *frame);
     /* Draws colour and depth into frame->target, within the view's stages of frame->timer. */
     void (*draw)(void *state, const ParticleBuffers *particles, const Frame *frame);
-    /* Draws the parts in front of overlays and edges (Frame.overlay_depth), which are drawn after `draw`;
+    /* Draws the parts in front of overlays and edges (Frame.over), which are drawn after `draw`;
        `draw` leaves these parts out. NULL: overlays and edges are tested against the depth that `draw`
        leaves. */
     void (*draw_front)(void *state, const Frame *frame);
@@ -205,7 +203,9 @@ void view_add(const ViewKind *kind);
 /* Kind number `index` of the list and the added kinds; NULL after the last. */
 const ViewKind *view_at(int index);
 
-/* The view's own settings in a def; not const, like memchr's result. NULL if the kind is unknown. */
+/* The view's own settings in a def; not const, like memchr's result. NULL if the kind is unknown. And where
+   they are in ViewDef.own, of kind number `index`, bytes. */
+size_t view_own_offset(int index);
 void *view_own_settings(const ViewDef *def, const ViewKind *kind);
 
 /* Sets the first kind, and the defaults of all views' own settings. */
@@ -222,6 +222,9 @@ const ViewKind *view_kind(const View *view);
 /* The radii of particles as drawn by `kind`; NULL: no view. */
 ParticleRadii view_radii(const ViewKind *kind, const ViewDef *def, const ParticleBuffers *particles);
 
+/* Radii of balls with the def's radius, or `spacings` particle spacings if the def has 0. */
+ParticleRadii view_ball_radii(const ViewDef *def, const ParticleBuffers *particles, double spacings);
+
 void view_prepare(View *view, const ParticleBuffers *particles, const Frame *frame);
 /* True if a view made for `a` may draw `b`. */
 bool view_is_compatible(const Subject *a, const Subject *b);
@@ -231,7 +234,6 @@ void view_want(const ViewDef *def, ParticleWants *wants);
 void view_show(const View *view, const ViewDef *def, Frame *frame);
 void view_cast(View *view, const ParticleBuffers *particles, const Frame *frame);
 void view_draw(View *view, const ParticleBuffers *particles, const Frame *frame);
-void view_draw_front(View *view, const Frame *frame);
 const char *view_note(View *view, bool *stale);
 const char *view_missing(const View *view);
 bool view_unfinished(const View *view);
@@ -255,7 +257,7 @@ typedef struct OverlayKind {
     bool (*check)(const Subject *subject, const char **key, Error *error);
     const Key *keys; /* the overlay's own settings, ended by a row without a path */
     const void *def; /* defaults of the settings struct, which starts with an OverlayShow */
-    size_t def_size; /* bytes; at most VIEW_OWN_SIZE */
+    size_t def_size; /* bytes; of all views and overlays together at most VIEW_OWN_SIZE */
     /* Adds the particle data that the overlay reads in addition to the view; for a NULL def, all data that
        any settings read. */
     void (*wants)(const ViewDef *def, ParticleWants *wants);
@@ -292,7 +294,9 @@ typedef struct Overlays {
     bool taken[OVERLAY_KINDS_MAX];
 } Overlays;
 
-/* The settings of a listed overlay in a def; not const, like memchr's result. */
+/* The settings of a listed overlay in a def; not const, like memchr's result. And where they are in
+   ViewDef.own, bytes. */
+size_t overlay_own_offset(int index);
 void *overlay_own_settings(const ViewDef *def, const OverlayKind *kind);
 
 /* Sets the defaults of all overlays' settings. */
@@ -316,6 +320,9 @@ void overlays_destroy(Overlays *overlays);
 /* True if any overlay is shown. */
 bool overlays_any(const Overlays *overlays);
 
+/* True if the frame has overlays that its solids and its view may hide. */
+bool overlays_wanted(const Overlays *overlays, const Frame *frame);
+
 /* True if a shown overlay keeps data of states (OverlayKind.take). */
 bool overlays_keep_states(const Overlays *overlays);
 
@@ -331,7 +338,12 @@ bool overlays_unfinished(const Overlays *overlays);
 int overlays_choose(const ViewDef *def, uint32_t id, ViewSetting settings[VIEW_SETTINGS_MAX],
                     char words[160]);
 
-/* Draws the overlays' legend lines, from the lower left corner up, above the line of the time. */
-void overlays_legend(const Overlays *overlays, Text *text, const Frame *frame);
+/* A line for the legend. */
+typedef struct OverlayLine {
+    char words[160];
+} OverlayLine;
+
+/* The overlays' lines for the legend. Returns their number. */
+int overlays_legend(const Overlays *overlays, const Frame *frame, OverlayLine lines[OVERLAY_KINDS_MAX]);
 
 #endif

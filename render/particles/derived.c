@@ -1,9 +1,8 @@
-#include "render/particles/derived.h"
 #include "render/particles/particles.h"
 
 #include "shaders/derived/derived_bindings.h"
 #include "shaders/shared/bindings.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 #include "slosh/def.h"
 
 #include <epoxy/gl.h>
@@ -12,8 +11,8 @@
 
 _Static_assert(SCALAR_COUNT <= 64 && VECTOR_COUNT <= 32, "a bit for each in ParticleWants");
 
-/* A formula for shaders/derived/derived.comp. Variables: `place` and `velocity` of the particle;
-   `carried`: the scalar `carries`; `three`: three scalars from `threes` on; frame_velocity and frame_turn:
+/* A formula for shaders/derived/derived.comp. Variables: `place` and `velocity` of the particle.
+   `carried`: the scalar `carries`. `three`: three scalars from `threes` on. frame_velocity and frame_turn:
    velocity and turning of the box, in its axes. With `near_too`: `gradient` (of the velocity) and `slope`
    (of the scalar read); `near`: number of neighbours in the support radius; `trapped`: speed of the
    neighbours' approach. */

@@ -2,7 +2,7 @@
 
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/scan.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -65,6 +65,55 @@ void prefix_sums_run(PrefixSums *sums, unsigned buffer, size_t size)
     } while (sizes[level] > 1 && level < PREFIX_SUM_LEVELS);
     for (level -= 2; level >= 0; level--)
         run_sums(sums->add, values[level], values[level + 1], sizes[level]);
+}
+
+bool selection_create(Selection *selection, const char *label, const char *file, Error *error)
+{
+    const char *const files[] = {file, NULL};
+    selection->mark = program_create(label, files, "#define MARK 1\n", error);
+    selection->list = selection->mark ? program_create(label, files, NULL, error) : 0;
+    return selection->list && prefix_sums_create(&selection->sums, error);
+}
+
+void selection_destroy(Selection *selection)
+{
+    glDeleteProgram(selection->mark);
+    glDeleteProgram(selection->list);
+    glDeleteBuffers(2, (GLuint[]){selection->bits, selection->starts});
+    prefix_sums_destroy(&selection->sums);
+    *selection = (Selection){0};
+}
+
+static size_t words_of(size_t count)
+{
+    return (count + 31) / 32;
+}
+
+static void run_selection(const Selection *selection, GLuint program, size_t count, size_t invocations,
+                          void (*set)(unsigned program, const void *user), const void *user)
+{
+    glUseProgram(program);
+    set(program, user);
+    glUniform1ui(SELECT_COUNT_AT, (GLuint)count);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SELECT_BITS_STORAGE, selection->bits);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SELECT_STARTS_STORAGE, selection->starts);
+    work_run(invocations);
+}
+
+void selection_run(Selection *selection, size_t count, void (*set)(unsigned program, const void *user),
+                   const void *user)
+{
+    const size_t words = words_of(count) + 1;
+    if (count > selection->capacity || !selection->bits) {
+        selection->capacity = work_capacity(selection->capacity, count);
+        const size_t most = words_of(selection->capacity) + 1;
+        work_buffer_remake(&selection->bits, most * sizeof(GLuint), "chosen particles");
+        work_buffer_remake(&selection->starts, most * sizeof(GLuint), "chosen particles before");
+    }
+    run_selection(selection, selection->mark, count, 32 * words, set, user);
+    prefix_sums_run(&selection->sums, selection->starts, words);
+    run_selection(selection, selection->list, count, count > 0 ? count : 1, set, user);
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
 }
 
 enum { CELLS_A_PARTICLE = 8, CELLS_LEAST = 4096, CELLS_A_SIDE = 32768 };

@@ -2,9 +2,7 @@
 
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/shadow_maps.h"
-#include "sim/gpu/gl_context.h"
-#include "sim/gpu/program.h"
-#include "sim/gpu/timer.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -22,10 +20,8 @@ void work_buffer_remake(unsigned *buffer, size_t size, const char *label)
 bool work_buffer_try(unsigned *buffer, size_t size, const char *label)
 {
     gl_debug_errors(); /* drops earlier errors: the query below is for this buffer */
-    gl_debug_asks_for_memory(true);
     work_buffer_remake(buffer, size, label);
     const bool none = gl_errors_take(GL_OUT_OF_MEMORY) > 0;
-    gl_debug_asks_for_memory(false);
     if (none) {
         glDeleteBuffers(1, buffer);
         *buffer = 0;
@@ -348,13 +344,13 @@ void particle_curves_make(ParticleCurves *curves, const ParticleBuffers *particl
     if (curves->size.program) {
         reserve_curve(&curves->size, particles->count, 1);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHAPES_STORAGE, curves->size.values);
-        particle_curve_run(curves->size.program, &def->size, frame->size_range, 1, particles);
+        particle_curve_run(curves->size.program, &def->size, frame->curves.size, 1, particles);
     }
     if (curves->opacity.program) {
         reserve_curve(&curves->opacity, particles->count, 2);
         particle_bind_ids(curves->opacity.program, particles);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, VEILS_STORAGE, curves->opacity.values);
-        particle_curve_run(curves->opacity.program, &def->opacity, frame->opacity_range, 1, particles);
+        particle_curve_run(curves->opacity.program, &def->opacity, frame->curves.opacity, 1, particles);
     }
 }
 

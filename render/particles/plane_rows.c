@@ -1,15 +1,15 @@
-#include "render/particles/plane.h"
-#include "sim/base/memory.h"
-#include "sim/base/parallel.h"
+#include "render/particles/particles.h"
+
+#include "sim/base/base.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* Samples are summed LANES at a time. Rows are longer by LANES, and samples outside of the disc get 0. */
 enum {
     BAND = 16,     /* rows: 16 rows of 1024 samples fit into a core's cache */
-    LANES = 8,     /* samples at a time; rows are longer by this number; samples outside the disc get 0 */
     PIECE = 256,   /* samples of a disc along a row at a time */
     READ = 1 << 16 /* particles at a time: fit into a core's cache */
 };
@@ -358,12 +358,12 @@ static bool reserve(PlaneRows *rows, const PlaneJob *job, const ParticleBuffers 
     const size_t words = (particles->position.stride + particles->scalar[job->scalar].stride) / sizeof(float);
     const size_t samples = (size_t)job->samples[0] * (size_t)job->samples[1];
     rows->stride = (size_t)job->samples[0] + LANES;
-    bool room = array_grow((void **)&rows->read, &rows->read_capacity, READ * words, sizeof(float)) &&
-                array_grow((void **)&rows->out, &rows->out_capacity, 4 * samples, sizeof(float));
+    bool capacity = array_grow((void **)&rows->read, &rows->read_capacity, READ * words, sizeof(float)) &&
+                    array_grow((void **)&rows->out, &rows->out_capacity, 4 * samples, sizeof(float));
     for (int k = 0; k < 3; k++)
-        room = room && array_grow((void **)&rows->sums[k], &rows->sums_capacity[k],
-                                  rows->stride * (size_t)job->samples[1], sizeof(float));
-    return room;
+        capacity = capacity && array_grow((void **)&rows->sums[k], &rows->sums_capacity[k],
+                                          rows->stride * (size_t)job->samples[1], sizeof(float));
+    return capacity;
 }
 
 bool plane_rows_run(PlaneRows *rows, const PlaneJob *job, const ParticleBuffers *particles, Error *error)

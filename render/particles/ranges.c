@@ -1,10 +1,9 @@
 #include "render/particles/particles.h"
 
-#include "render/particles/derived.h"
 #include "shaders/derived/derived_bindings.h"
 #include "shaders/shared/bindings.h"
+#include "sim/gpu/gl.h"
 #include "sim/gpu/particle_buffers.h"
-#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <stdint.h>
@@ -58,7 +57,7 @@ static void run_digit(const Ranges *ranges, GLuint digit, size_t count)
 {
     glUseProgram(ranges->count);
     glUniform1ui(DIGIT_AT, digit);
-    work_run(count);
+    work_run(digit == 0 ? (count + RANKS_A_LANE - 1) / RANKS_A_LANE : count);
     glUseProgram(ranges->find);
     glUniform1ui(DIGIT_AT, digit);
     work_dispatch(1);

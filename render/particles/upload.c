@@ -1,7 +1,6 @@
-#include "render/particles/upload.h"
+#include "render/particles/particles.h"
 
-#include "sim/gpu/gl_context.h"
-#include "sim/gpu/timer.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <stdlib.h>

@@ -1,10 +1,9 @@
 #include "render/picking/picking.h"
 
 #include "render/particles/particles.h"
-#include "render/particles/plane.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/probe_bindings.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -295,12 +294,12 @@ static void write_answers(const ParticleProbe *probe, const ProbedPicture *pictu
     const ProbeRequest *asked = &probe->known;
     for (int i = 0; i < count_of(&asked->asks); i++) {
         const ProbeAnswer *answer = &probe->answers[i];
-        ViewProbe *told = &out->probe[out->count];
-        *told = (ViewProbe){.now = out->now, .name = asked->name, .unit = asked->unit, .id = VIEW_NO_ID};
-        write_answer(asked, answer, picture->world, told);
-        place(asked, i, answer, told->at);
-        told->seen = sight_pixel(&picture->sight, told->at, told->pixel);
-        if (i == asked->asks.count && told->what == VIEW_PROBE_EMPTY)
+        ViewProbe *answered = &out->probe[out->count];
+        *answered = (ViewProbe){.now = out->now, .name = asked->name, .unit = asked->unit, .id = VIEW_NO_ID};
+        write_answer(asked, answer, picture->world, answered);
+        place(asked, i, answer, answered->at);
+        answered->seen = sight_pixel(&picture->sight, answered->at, answered->pixel);
+        if (i == asked->asks.count && answered->what == VIEW_PROBE_EMPTY)
             continue; /* no fluid under the mouse */
         out->count++;
         out->mouse |= i == asked->asks.count;
@@ -365,11 +364,12 @@ void picture_probe_set(PictureProbe *probe, const ParticleBuffers *particles, co
                                .target = *frame->target,
                                .uniforms = uniforms,
                                .scalar = view_color_by(frame->def),
-                               .by_fluid = frame->by_fluid,
+                               .by_fluid = frame->colors.by_fluid,
                                .kernel = plane_kernel_of(0, frame->world),
                                .sight = {frame->camera, particles->box, frame->width, frame->height, 0},
-                               .name = frame->by_fluid ? scalar_name(SCALAR_FLUID) : frame->shown,
-                               .unit = frame->by_fluid ? "" : frame->shown_unit,
+                               .name =
+                                   frame->colors.by_fluid ? scalar_name(SCALAR_FLUID) : frame->colors.name,
+                               .unit = frame->colors.by_fluid ? "" : frame->colors.unit,
                                .world = frame->world};
     const uint64_t number = probe->picture.number;
     const bool same = probe->drawn && same_picture(&probe->picture, &now);

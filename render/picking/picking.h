@@ -3,7 +3,6 @@
 #ifndef RENDER_PICKING_PICKING_H
 #define RENDER_PICKING_PICKING_H
 
-#include "render/frame/camera.h"
 #include "render/frame/frame.h"
 #include "render/frame/view.h"
 #include "sim/gpu/particle_buffers.h"

@@ -16,10 +16,10 @@
 extern "C" {
 #endif
 
-#include "sim/base/tables.h"
+#include "sim/base/base.h"
 #include "slosh/error.h"
 
-/* The scale of a slider: converts values to positions and back. Pure. */
+/* The scale of a slider: converts values to positions and back, without state. */
 typedef struct UiScale {
     double low, high;   /* the ends of the slider, low < high */
     bool logarithmic;   /* then low > 0 */

@@ -5,8 +5,8 @@
 #define BALL_RADIUS particle_radius // m
 #endif
 #if defined ELLIPSOID || defined APART
-// Per particle: centre and radius (m) of the ball of equal volume; then the symmetric matrix A, of determinant 1, that maps the
-// ellipsoid to this ball: xx yy zz, upper bound of the least axis in radii; xy xz yz, crowding around the particle, 0 .. 1.
+// Per particle: centre and radius (m) of the ball of equal volume. Then the symmetric matrix A, of determinant 1, that maps the
+// ellipsoid to this ball. In order: xx yy zz, upper bound of the least axis in radii; xy xz yz, crowding around the particle, 0 .. 1.
 layout(std430, binding = SHAPES_STORAGE) readonly buffer Shapes { vec4 shape[]; };
 #elif defined DROPS
 layout(std430, binding = SHAPES_STORAGE) readonly buffer Shapes { float shape_radius[]; };

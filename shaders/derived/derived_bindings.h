@@ -13,6 +13,9 @@
 #define RANKS_FOUND_STORAGE 4
 #define RANK_BINS_STORAGE   5
 
+/* Values of an invocation that counts the highest digit */
+#define RANKS_A_LANE 16u
+
 /* Texture units */
 #define OTHERS_UNIT 2
 

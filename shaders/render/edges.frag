@@ -1,4 +1,4 @@
-// Plain lines, or the edges of glass panes: a ground bevel that reflects the sky on the side of the light; on the other side the
+// Plain lines, or the edges of glass panes: a ground bevel that reflects the sky on the side of the light. On the other side the
 // view goes along the glass, green from iron. COARSE: drawn over an enlarged coarse picture, tested against the coarse depth.
 #include "common/frame.glsl"
 #include "common/environment.glsl"

@@ -26,6 +26,9 @@
 /* results of sums over neighbours */
 #define SHAPES_STORAGE 9
 #define CAST_STORAGE   10
+/* in passes that list chosen particles: common/select.glsl */
+#define SELECT_BITS_STORAGE   4
+#define SELECT_STARTS_STORAGE 8
 
 /* Texture units; views use the units between */
 #define SHADOW_UNIT       0
@@ -69,5 +72,6 @@
 #define CAUSTIC_STEP_AT     78
 #define CAUSTIC_WIDTH_AT    79
 #define CAUSTIC_HIGHEST_AT  80
+#define SELECT_COUNT_AT     81
 
 #endif

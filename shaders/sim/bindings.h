@@ -52,8 +52,9 @@
 #define OLD_NAMES_BUFFER      7
 
 /* Forces on box and solids */
-#define FELT_BUFFER       3
-#define FELT_RESTS_BUFFER 5 /* a pass of the method may use 7 */
+#define FORCES_BUFFER       3
+#define FORCES_RESTS_BUFFER 5 /* a pass of the method may use 7 */
+#define FORCE_SUMS_BUFFER   6
 
 /* Emitters, drains; shown values, plotted values */
 #define LAYER_BUFFER  5
@@ -64,7 +65,7 @@
 
 /* Locations of uniforms of single passes */
 #define PASS_DT_AT         0 /* s */
-#define FELT_DT_AT         1
+#define FORCES_DT_AT       1
 #define SHOWN_SCALAR_AT    0
 #define GRAVITY_C2_AT      0
 #define FINGER_AT          0 /* xyz: the point, m; w: 1 / radius^2 */

@@ -9,7 +9,7 @@ ivec3 cell_of(vec3 x)
 #endif
 }
 
-// Place of a cell: sim/step/cells.h.
+// Place of a cell: sim/step/backend.h.
 int cell_place(ivec3 at) { return ((cell_fold.x * at.y + cell_fold.y * at.z) & cell_fold.z) + at.x; }
 
 // Places of a row's first cell and of the cell after the row. With periodic sides a row is a single cell, and

@@ -45,7 +45,7 @@ UNIFORM_BLOCK(ConstantBlock, CONSTANT_BLOCK)
     vec3 cell_inverse; /* 1/m */
     vec3 box_low;      /* low corner of a box with periodic sides, m */
     vec3 box_whole;    /* size of the box, m */
-    ivec3 cell_fold;   /* y, z, mask: sim/step/cells.h */
+    ivec3 cell_fold;   /* y, z, mask: sim/step/backend.h */
 }
 BLOCK_END(ConstantBlock);
 

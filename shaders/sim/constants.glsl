@@ -4,7 +4,7 @@
 #include "shaders/sim/watch_block.h"
 
 // Apparent gravity at x.
-vec3 felt_at(vec3 x) { return felt_origin - cross(felt_alpha, x) - cross(felt_omega, cross(felt_omega, x)); }
+vec3 apparent_at(vec3 x) { return apparent_origin - cross(apparent_alpha, x) - cross(apparent_omega, cross(apparent_omega, x)); }
 
 // particles_there: number of particles, for passes that move or count particles. particle_count: number to process; 0
 // after a step that blew up: all fluid in a single cell would delay the rest of the frame for minutes.

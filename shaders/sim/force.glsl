@@ -11,7 +11,7 @@ layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 #define SEEN_VELOCITY(i) velocity[i].xyz
 layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; }; // w: input of volume_of
 #endif
-#ifndef FELT_SOLIDS
+#ifndef FORCES_ON_SOLIDS
 layout(std430, binding = ACCELERATIONS_BUFFER) writeonly buffer Accelerations { vec4 acceleration[]; };
 #endif
 
@@ -78,9 +78,9 @@ void meet_boundary(uint j, vec3 d, float volume)
 }
 #endif
 
-#ifdef FELT_SOLIDS
-uint felt_by;
-Side felt_side;
+#ifdef FORCES_ON_SOLIDS
+uint boundary_by;
+Side boundary_side;
 
 Side wall_side(uint b)
 {
@@ -88,9 +88,9 @@ Side wall_side(uint b)
     return Side(uintBitsToFloat(boundary_state[b].x), boundary_position[b].w, wall.w, 0.0, 0.0, wall.xyz);
 }
 
-#define FELT_BEGIN felt_side = wall_side(felt_by);
-#ifndef FELT_FORCE
-#define FELT_FORCE(i, term, d, r2) pair_force(side_of(i, term), felt_side, d, r2)
+#define FORCES_BEGIN boundary_side = wall_side(boundary_by);
+#ifndef FORCES_FORCE
+#define FORCES_FORCE(i, term, d, r2) pair_force(side_of(i, term), boundary_side, d, r2)
 #endif
 #endif
 

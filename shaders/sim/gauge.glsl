@@ -1,4 +1,4 @@
-// Contribution of a particle to the gauge: mirrors sim/step/backend_sums.h.
+// Contribution of a particle to the gauge: mirrors sim/step/backend.h.
 
 #ifdef ENERGY_OF_METHOD
 #include ENERGY_OF_METHOD

@@ -1,4 +1,4 @@
-// walls_contain of sim/box/walls.h.
+// walls_contain of sim/box/box.h.
 bool in_the_box(vec3 x)
 {
     vec3 low = vec3(-half_size.x, 0.0, -half_size.z), high = low + 2.0 * half_size;

@@ -1,6 +1,6 @@
 // Neighbour lists, including the particle itself: particles within h, found by the first walk after a grid, for later
-// passes of the step. sim/gpu/compute/grid.c writes the defines. First a count per particle, then the lists of each
-// 32 particles, interleaved so that 32 invocations read a line of memory. A pass that is always the first of a step
+// passes of the step. sim/gpu/compute/buffers.c writes the defines. First a count per particle, then the lists of each
+// 32 particles, interleaved so that 32 invocations read lines of memory together. A pass that is always the first of a step
 // defines LISTS_FIRST; a pass that is never the first defines LISTS_LATER and makes no lists.
 #ifdef LISTS
 #include "shaders/sim/bindings.h"
@@ -12,7 +12,11 @@
 #endif
 layout(std430, binding = LISTS_BUFFER) LIST_ACCESS buffer Lists { uint list[]; };
 
-uint list_place(uint i, uint k) { return LIST_STRIDE + (i & ~31u) * LIST_MOST + k * 32u + (i & 31u); }
+// LIST_RUN entries of a particle stand side by side: on hardware a store goes to a line of memory that the next three fill.
+uint list_place(uint i, uint k)
+{
+    return LIST_STRIDE + (i & ~31u) * LIST_MOST + (k & ~(LIST_RUN - 1u)) * 32u + (i & 31u) * LIST_RUN + (k & (LIST_RUN - 1u));
+}
 
 #ifdef LISTS_FIRST
 #define LIST_MADE(i) false

@@ -1,5 +1,5 @@
 /* Distance grids of mesh solids; values are in a buffer texture. Filled by sim/gpu/compute/solids.c. In the
-   unit of the mesh's file: sim/mesh/distance.h. */
+   unit of the mesh's file: sim/mesh/mesh_shape.h. */
 #ifndef SLOSH_MESH_BLOCK_H
 #define SLOSH_MESH_BLOCK_H
 

@@ -1,4 +1,4 @@
-// Positions in wide boxes with rounding remainders: sim/box/box_step.h. In smaller boxes remainders are lost.
+// Positions in wide boxes with rounding remainders: sim/box/box.h. In smaller boxes remainders are lost.
 #ifdef WIDE
 #include "sim/own.glsl"
 

@@ -1,4 +1,4 @@
-/* State of an iterating solver on the GPU; sim/gpu/compute/terms.c initializes and reads the block. The
+/* State of an iterating solver on the GPU; sim/gpu/compute/stages.c initializes and reads the block. The
    first three members are the work groups of the solver's passes, read by the driver: 0 after the end. */
 #ifndef SLOSH_SOLVE_BLOCK_H
 #define SLOSH_SOLVE_BLOCK_H

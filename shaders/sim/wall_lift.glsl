@@ -1,5 +1,9 @@
 // Share of a particle's weight held by walls whose images have their particles' pressure: walls_lift of
-// sim/box/walls.h, and add_lift in sim/methods/mueller/mueller.c.
+// sim/box/box.h, and cpu_wall_lift of sim/cpu/cpu.h.
+#ifndef LIFT_FROM // layers of pressure below which walls hold nothing
+#define LIFT_FROM 0.0
+#endif
+
 vec3 lift_shape(vec3 d)
 {
     vec3 t = max(1.0 - d * inverse_support, 0.0), t2 = t * t;
@@ -22,6 +26,6 @@ vec3 walls_lift(vec3 x)
 // The resulting acceleration of a particle at x with rest density `density`, pressure p and gravity g.
 vec3 lift_at(vec3 x, vec3 g, float density, float p)
 {
-    float layer = density * spacing * length(g), fade = layer > 0.0 ? clamp(p / layer, 0.0, 1.0) : 0.0;
+    float layer = density * spacing * length(g), fade = layer > 0.0 ? clamp(p / layer - LIFT_FROM, 0.0, 1.0) : 0.0;
     return -fade * walls_lift(x) * g;
 }

@@ -10,6 +10,7 @@ layout(location = 2) flat in uint index;
 layout(location = 3) flat in vec2 door;
 #endif
 layout(location = 0) out uint seen;
+layout(depth_less) out float gl_FragDepth; // than the corner's: spheres.vert
 
 void main()
 {

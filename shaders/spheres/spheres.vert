@@ -29,5 +29,7 @@ void main()
     vec2 corner = vec2((gl_VertexID & 1) == 0 ? bounds.x : bounds.y, (gl_VertexID & 2) == 0 ? bounds.z : bounds.w);
     offset = sphere_offset(sphere, ray_of_ndc(corner));
     constants = sphere_constants(sphere);
-    gl_Position = vec4(corner, 0.5, 1.0);
+    // No point of the sphere is nearer: hardware leaves out hidden pixels before it shades them (depth_less).
+    float nearest = near_plane / max(-centre.z - ball.radius, near_plane);
+    gl_Position = vec4(corner, min(nearest * 1.00001, 1.0), 1.0);
 }

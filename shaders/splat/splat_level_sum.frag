@@ -1,4 +1,4 @@
-// The field and its slope along the ray, per radius, at four positions behind the depth in the map; with SINGLE the field and its
+// The field and its slope along the ray, per radius, at four positions behind the depth in the map. With SINGLE the field and its
 // first three derivatives at that depth.
 #include "common/frame.glsl"
 #include "common/sphere.glsl"

@@ -1,4 +1,4 @@
-// Spheres smaller than pixels, for the view splat with DISCS: drawn as discs with a radius of at least SMALL pixels, so that no
+// Spheres smaller than pixels, for the view splat with DISCS. Drawn as discs with a radius of at least SMALL pixels, so that no
 // sphere falls between pixel centres, with coverage by area. After: Zwicker, Pfister, van Baar and Gross, Surface splatting,
 // 2001, where a splat is at least as large as a pixel's filter.
 const float SMALL = 0.8; // the sum over pixels of 1 - (distance / SMALL)^2 then varies little with the position: by a sixth

@@ -1,4 +1,4 @@
-// Counts the points in each counting sphere (sim/points/sampling.h), an invocation per point.
+// Counts the points in each counting sphere (sim/points/points.h), an invocation per point.
 #include "shaders/surface/surface_bindings.h"
 layout(local_size_x = SURFACE_GROUP) in;
 layout(std430, binding = SURFACE_STORAGE) readonly buffer Points { float points[]; };

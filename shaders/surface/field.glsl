@@ -16,7 +16,7 @@ float bend_of(vec3 slope, vec3 straight, vec3 across)
     return straight.x + straight.y + straight.z - along / dot(slope, slope);
 }
 
-// Sine and cosine of `turns` full turns, as lanes_turn of sim/points/lanes.h; the drivers' functions may be far less exact.
+// Sine and cosine of `turns` full turns, as f8_sincos of sim/base/simd.h; the drivers' functions may be far less exact.
 vec2 turn(float turns)
 {
     float quarters = floor(4.0 * turns + 0.5), x = (turns - 0.25 * quarters) * 6.28318531, square = x * x;

@@ -1,4 +1,4 @@
-// Values on a grid (sim/points/fields.h): corner; 1 / spacing; size.
+// Values on a grid (sim/points/points.h): corner; 1 / spacing; size.
 layout(std430, binding = FIELD_FIRST_STORAGE) readonly buffer FieldValues { float field_values[]; };
 
 ivec3 field_size()

@@ -1,4 +1,4 @@
-// level_gyroid of sim/points/fields.h: 1 / period, 2 pi / period.
+// level_gyroid of sim/points/points.h: 1 / period, 2 pi / period.
 Sample field_at(vec3 p)
 {
     float k = field_numbers[0].y;

@@ -1,4 +1,4 @@
-// Counter-based random numbers, equal to those of sim/points/lanes.h. After: J. Salmon, M. Moraes, R. Dror, D. Shaw, "Parallel
+// Counter-based random numbers, equal to those of sim/points/philox.h. After: J. Salmon, M. Moraes, R. Dror, D. Shaw, "Parallel
 // random numbers: as easy as 1, 2, 3", 2011.
 uvec4 philox(uvec2 key, uvec4 word)
 {
@@ -18,7 +18,7 @@ float uniform_part(uint word)
     return (float(word >> 9) + 0.5) / 8388608.0;
 }
 
-// lanes_log of sim/points/lanes.h.
+// f8_log of sim/base/simd.h.
 float exact_log(float a)
 {
     int exponent = int(floatBitsToUint(a) >> 23 & 0xffu) - 126;

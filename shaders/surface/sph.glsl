@@ -1,4 +1,4 @@
-// level_sph of sim/points/fields.h: the sum of V W over the neighbours.
+// level_sph of sim/points/points.h: the sum of V W over the neighbours.
 #include "surface/sph_sum.glsl"
 
 Sample field_at(vec3 p)

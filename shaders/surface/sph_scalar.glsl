@@ -1,4 +1,4 @@
-// level_sph_scalar of sim/points/fields.h: s = A / F; grad s = (grad A - s grad F) / F; H s = (H A - s H F - grad s grad F -
+// level_sph_scalar of sim/points/points.h: s = A / F; grad s = (grad A - s grad F) / F; H s = (H A - s H F - grad s grad F -
 // grad F grad s) / F.
 #include "surface/sph_sum.glsl"
 

@@ -1,4 +1,4 @@
-// level_sphere of sim/points/fields.h: centre, radius.
+// level_sphere of sim/points/points.h: centre, radius.
 Sample field_at(vec3 p)
 {
     vec3 off = p - field_numbers[0].xyz;

@@ -1,4 +1,4 @@
-// level_torus of sim/points/fields.h: centre, tube; ring.
+// level_torus of sim/points/points.h: centre, tube; ring.
 Sample field_at(vec3 p)
 {
     vec3 off = p - field_numbers[0].xyz;

@@ -1,4 +1,4 @@
-// level_wave of sim/points/fields.h: 1 / period, 2 pi / period, amplitude, height.
+// level_wave of sim/points/points.h: 1 / period, 2 pi / period, amplitude, height.
 Sample field_at(vec3 p)
 {
     float k = field_numbers[0].y, high = field_numbers[0].z;

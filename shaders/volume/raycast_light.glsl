@@ -41,7 +41,7 @@ vec3 albedo_at(vec3 at, out float share)
 #endif
 
 #ifdef SHADOWS
-// The fraction of light through the fluid between a place and the light: as fluid_light_at, with the length of fluid on the way
+// The fraction of light through the fluid between a place and the light. As fluid_light_at, with the length of fluid on the way
 // instead of the depth below the first lit surface.
 float lit_at(vec3 place)
 {

@@ -103,7 +103,7 @@ Ray eye_ray()
 }
 
 // A safe step from a position with field f that does not pass `level`, m. The field of a fluid with a plane end rises first as
-// the fourth power of the distance into the kernel's reach; half of that distance is safe in hollows and between drops too. In
+// the fourth power of the distance into the kernel's reach. Half of that distance is safe in hollows and between drops too. In
 // empty space steps are thus half the kernel's radius: reading a map of empty space on the way would cost more than it saves.
 float step_from(float f, float level)
 {

@@ -16,7 +16,6 @@
 #define FOAM_SOLID_UNIT   7
 
 /* Locations of uniforms */
-#define FOAM_COUNT_AT           16
 #define FOAM_SPEEDS_AT          17
 #define FOAM_VELOCITY_STRIDE_AT 18
 #define FOAM_MOST_AT            19

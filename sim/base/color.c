@@ -1,4 +1,4 @@
-#include "sim/base/color.h"
+#include "sim/base/base.h"
 
 #include <math.h>
 

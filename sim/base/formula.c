@@ -182,7 +182,7 @@ static void sum_of(Reader *r)
 
 bool formula_given(const char *text)
 {
-    return text[0] && (text[0] != 'n' || strcmp(text, "none") != 0);
+    return text && text[0] && (text[0] != 'n' || strcmp(text, "none") != 0);
 }
 
 bool formula_read(const char *text, const char *names, Formula *formula, Error *error)

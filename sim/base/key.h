@@ -1,5 +1,5 @@
 /* A key of a scene: a row beside the struct with its value, in the folder of its owner (a method, a
-   backend, a view, the box ...). The table of all keys is the sequence of these rows (app/scene/keys.h).
+   backend, a view, the box ...). The table of all keys is the sequence of these rows (app/scene/scene.h).
    The loader, `--set`, `slosh info`, the panel, the documentation and the comparison in `run --resume` use
    the table. Macros for rows are in sim/base/key_rows.h. */
 #ifndef SIM_BASE_KEY_H
@@ -16,7 +16,7 @@ typedef enum KeyType {
     KEY_NUMBER,  /* double */
     KEY_INTEGER, /* int */
     KEY_BOOLEAN, /* bool */
-    KEY_TEXT,    /* char[NAME_SIZE] or larger */
+    KEY_TEXT,    /* char[NAME_SIZE] or larger, or const char * with KEY_POINTER */
     KEY_CHOICE,  /* a name of a list: char[NAME_SIZE], or an int with KEY_INDEX */
     KEY_VEC3,    /* double[3] */
     KEY_AXES,    /* some of x, y, z: bool[3] */
@@ -39,7 +39,9 @@ enum {
     KEY_SINGLE = 16,  /* color: stored as float[3] */
     KEY_IDLE = 32,    /* changes no bit of a run; for a mapping: neither do the keys below */
     KEY_REBUILD = 64, /* changing the value requires a new view */
-    KEY_WORDS = 128   /* for a text: a list of words is also allowed, [3, 17]: stored as "3 17" */
+    KEY_WORDS = 128,  /* for a text: a list of words is also allowed, [3, 17]: stored as "3 17" */
+    KEY_POINTER =
+        256 /* text, settings: stored by text_intern (sim/base/base.h), list: by bytes_keep; NULL: none */
 };
 
 /* The only reader of some keys: a method, a mode, a part of the scene. If the owner is not in use, a set
@@ -66,7 +68,8 @@ typedef struct Key {
     size_t aux;    /* offset of associated data: count of a list or of names (int), a variant's kind (int), a
                       range's bool[2] (automatic, then symmetric), a curve's TimeTable, or a mapping's bool,
                       false once the mapping is present */
-    size_t size;   /* bytes of a text's or settings' field, or of a list's element */
+    size_t size;   /* bytes of a text's or settings' field, or of a list's element; of a text or
+                      settings with KEY_POINTER: more than the longest text */
     int variant;   /* value of the kind */
     /* Names of a KEY_CHOICE or KEY_NAMES: an array of structs (or plain pointers) of `stride` bytes that
        begin with the name, ended by a NULL name. For a computed list: a function. */

@@ -89,9 +89,12 @@ enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW, I = KEY_IDLE };
         .path = PATH, .type = KEY_TEXT, .flags = FLAGS, .unit = "", BOUNDS(1, (SIZE)-1), .size = (SIZE),     \
         .fallback = FALLBACK, PLACE(AT), .help = HELP                                                        \
     }
-#define SETTINGS(PATH, SIZE, AT, FALLBACK, HELP)                                                             \
+/* A name of a file, or what may be as long. */
+#define FILE_TEXT(PATH, FLAGS, AT, FALLBACK, HELP)                                                           \
+    TEXT(PATH, KEY_POINTER | (FLAGS), FILE_NAME_SIZE, AT, FALLBACK, HELP)
+#define SETTINGS(PATH, FLAGS, SIZE, AT, FALLBACK, HELP)                                                      \
     {                                                                                                        \
-        .path = PATH, .type = KEY_SETTINGS, .unit = "", BOUNDS(1, (SIZE)-1), .size = (SIZE),                 \
+        .path = PATH, .type = KEY_SETTINGS, .flags = FLAGS, .unit = "", BOUNDS(1, (SIZE)-1), .size = (SIZE), \
         .fallback = FALLBACK, PLACE(AT), .help = HELP                                                        \
     }
 #define COLOR(PATH, FLAGS, AT, FALLBACK, HELP)                                                               \
@@ -99,6 +102,7 @@ enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW, I = KEY_IDLE };
         .path = PATH, .type = KEY_COLOR, .flags = FLAGS, .unit = "", BOUNDS(0, 1), .fallback = FALLBACK,     \
         PLACE(AT), .help = HELP                                                                              \
     }
+/* KEY_POINTER among FLAGS: the struct has a pointer to the elements. */
 #define LIST(PATH, FLAGS, LO, HI, AT, COUNT, ELEMENT, INIT, HELP)                                            \
     {                                                                                                        \
         .path = PATH, .type = KEY_LIST, .flags = FLAGS, .unit = "", BOUNDS(LO, HI), .offset = AT,            \

@@ -1,4 +1,4 @@
-#include "sim/base/parallel.h"
+#include "sim/base/base.h"
 
 #include <omp.h>
 #include <pthread.h>

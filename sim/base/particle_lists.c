@@ -1,4 +1,5 @@
-#include "sim/base/memory.h"
+#include "sim/base/base.h"
+
 #include "slosh/mesh.h"
 #include "slosh/state.h"
 
@@ -42,22 +43,22 @@ bool bins_fill(Bins *bins, size_t count, size_t items, BinsReached reached, cons
     return true;
 }
 
-static bool make_room(Births *births, size_t room)
+static bool make_room(Births *births, size_t capacity)
 {
-    if (room <= births->room)
+    if (capacity <= births->capacity)
         return true;
-    Birth *of = realloc(births->of, room * sizeof *of);
+    Birth *of = realloc(births->of, capacity * sizeof *of);
     if (!of)
         return false;
     births->of = of;
-    births->room = room;
+    births->capacity = capacity;
     return true;
 }
 
 bool births_reserve(Births *births, size_t more)
 {
     const size_t count = births->count + more;
-    return count <= births->room || make_room(births, count + count / 2 + 16);
+    return count <= births->capacity || make_room(births, count + count / 2 + 16);
 }
 
 void births_add(Births *births, ParticleId first_id, float time)

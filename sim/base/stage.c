@@ -1,14 +1,19 @@
+#include "sim/base/base.h"
 #include "slosh/error.h"
 #include "slosh/world.h"
 
+#include <pthread.h>
+#include <search.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 static const struct {
     const char *name;
-    Part part;
+    StagePart part;
 } stages[] = {
 #define X(NAME, name, part) {name, part},
     STAGE_LIST(X)
@@ -20,12 +25,12 @@ const char *stage_name(Stage stage)
     return stages[stage].name;
 }
 
-Part stage_part(Stage stage)
+StagePart stage_part(Stage stage)
 {
     return stages[stage].part;
 }
 
-const char *part_name(Part part)
+const char *part_name(StagePart part)
 {
     static const char *const names[] = {
         [PART_SIM] = "sim", [PART_UPLOAD] = "upload", [PART_RENDER] = "render"};
@@ -68,6 +73,66 @@ void text_tame(char *text)
         if (upper)
             *++c = '?';
     }
+}
+
+typedef struct Kept {
+    const void *bytes; /* of a kept copy: behind the struct */
+    size_t size;
+} Kept;
+
+static int compare_kept(const void *a, const void *b)
+{
+    const Kept *one = a, *other = b;
+    if (one->size != other->size)
+        return one->size < other->size ? -1 : 1;
+    return memcmp(one->bytes, other->bytes, one->size);
+}
+
+static Kept *kept_copy(const Kept *kept)
+{
+    Kept *copy = malloc(sizeof *copy + kept->size);
+    if (!copy)
+        return NULL;
+    *copy = (Kept){copy + 1, kept->size};
+    memcpy(copy + 1, kept->bytes, kept->size);
+    return copy;
+}
+
+const void *bytes_keep(const void *bytes, size_t size)
+{
+    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+    static void *tree; /* of <search.h> */
+    const Kept kept = {bytes, size};
+    if (size == 0)
+        return NULL;
+    pthread_mutex_lock(&lock);
+    Kept *const *found = tfind(&kept, &tree, compare_kept);
+    if (!found) {
+        Kept *copy = kept_copy(&kept);
+        found = copy ? tsearch(copy, &tree, compare_kept) : NULL;
+        if (!found)
+            free(copy);
+    }
+    pthread_mutex_unlock(&lock);
+    return found ? (*found)->bytes : NULL;
+}
+
+void *bytes_copy(const void *bytes, size_t size)
+{
+    void *copy = size > 0 ? malloc(size) : NULL;
+    return copy ? memcpy(copy, bytes, size) : NULL;
+}
+
+const void *bytes_give(void *copy, size_t size)
+{
+    const void *kept = copy ? bytes_keep(copy, size) : NULL;
+    free(copy);
+    return kept;
+}
+
+const char *text_intern(const char *text)
+{
+    return bytes_keep(text, strlen(text) + 1);
 }
 
 bool error_set(Error *error, const char *format, ...)

@@ -1,4 +1,4 @@
-#include "sim/base/sums.h"
+#include "sim/base/base.h"
 
 #include <math.h>
 

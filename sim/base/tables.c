@@ -1,4 +1,4 @@
-#include "sim/base/tables.h"
+#include "sim/base/base.h"
 
 #include "slosh/def.h"
 

@@ -1,4 +1,4 @@
-#include "sim/box/box_step.h"
+#include "sim/box/box.h"
 
 static bool equal(const double *a, const double *b, int count)
 {
@@ -69,12 +69,12 @@ void box_step(const BoxState *begin, const BoxState *end, double dt, BoxStep *st
 void apparent_gravity(const double gravity[3], const BoxState *begin, const BoxState *middle,
                       const BoxState *end, double dt, ApparentGravity *out)
 {
-    double felt[3], alpha[3], axes[3];
+    double apparent[3], alpha[3], axes[3];
     for (int k = 0; k < 3; k++) {
-        felt[k] = gravity[k] - (end->velocity[k] - begin->velocity[k]) / dt;
+        apparent[k] = gravity[k] - (end->velocity[k] - begin->velocity[k]) / dt;
         alpha[k] = (end->angular_velocity[k] - begin->angular_velocity[k]) / dt;
     }
-    quat_rotate_inverse(middle->orientation, felt, axes);
+    quat_rotate_inverse(middle->orientation, apparent, axes);
     store(axes, out->origin);
     quat_rotate_inverse(middle->orientation, alpha, axes);
     store(axes, out->alpha);

@@ -1,4 +1,4 @@
-#include "sim/box/walls.h"
+#include "sim/box/box.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -86,7 +86,11 @@ void walls_cushion(const Walls *walls, float dt, const float g[3], const float x
     }
 }
 
-double wall_drag_weight(const Lattice *lattice, DragWeight weight, double r, double normal,
+/* w(r), 1/m5, of a wall particle at distance `normal` along the wall's normal. By `weight` this is Müller's
+   Laplacian, or Morris's 2 F, which is -2 W'(r) / r with the pressure kernel, or the radial form of
+   sim/def/fluids.h. The radial form is that for velocities along the wall, 2 R F (r^2 - normal^2) /
+   (dimensions - 1), used for all velocities: there is no velocity across the wall. */
+static double weight_of(const Lattice *lattice, DragWeight weight, double r, double normal,
                         double support_radius)
 {
     if (weight == DRAG_LAPLACIAN)
@@ -98,16 +102,16 @@ double wall_drag_weight(const Lattice *lattice, DragWeight weight, double r, dou
     return morris * lattice->radial_scale * (r * r - normal * normal) / (lattice->dimensions - 1);
 }
 
-typedef struct Behind {
+typedef struct WallLattice {
     int faces; /* number of faces; the first axes are normals */
     double spacing, h;
     const Lattice *lattice;
     double unit_volume;
     DragWeight weight;
-} Behind;
+} WallLattice;
 
 /* Term of the lattice particle with these indices: behind the faces from 0 on, and along the faces. */
-static double term(const Behind *b, const double d[3], const int index[3])
+static double term(const WallLattice *b, const double d[3], const int index[3])
 {
     double r2 = 0, least = INFINITY, normal = 0;
     for (int a = 0; a < 3; a++) {
@@ -121,10 +125,10 @@ static double term(const Behind *b, const double d[3], const int index[3])
         }
     }
     const double r = sqrt(r2);
-    return r < b->h ? least * wall_drag_weight(b->lattice, b->weight, r, normal, b->h) : 0;
+    return r < b->h ? least * weight_of(b->lattice, b->weight, r, normal, b->h) : 0;
 }
 
-static double sum_behind(const Behind *b, const double d[3])
+static double sum_behind(const WallLattice *b, const double d[3])
 {
     const int reach = (int)ceil(b->h / b->spacing);
     int first[3], last[3], index[3];
@@ -140,7 +144,7 @@ static double sum_behind(const Behind *b, const double d[3])
     return sum;
 }
 
-static float *table_create(const Behind *b, int nodes, double step)
+static float *table_create(const WallLattice *b, int nodes, double step)
 {
     const int count[3] = {nodes, b->faces > 1 ? nodes : 1, b->faces > 2 ? nodes : 1};
     float *table = malloc((size_t)count[0] * (size_t)count[1] * (size_t)count[2] * sizeof *table);
@@ -165,7 +169,7 @@ bool wall_drag_create(WallDrag *drag, const double box_size[3], const bool open[
     const double range = support_radius - 0.5 * spacing;
     drag->range = (float)range;
     for (int t = 0; t < 3 && t < drag->dimensions; t++) {
-        const Behind behind = {t + 1, spacing, support_radius, lattice, unit_volume, weight};
+        const WallLattice behind = {t + 1, spacing, support_radius, lattice, unit_volume, weight};
         const double step = spacing / nodes_per_spacing[t];
         drag->nodes[t] = (int)ceil(range / step) + 2;
         drag->inverse_step[t] = (float)(1 / step);
@@ -185,13 +189,13 @@ void wall_drag_destroy(WallDrag *drag)
     memset(drag, 0, sizeof *drag);
 }
 
-typedef struct Face {
+typedef struct NearFace {
     int axis;
     bool lid;
     float distance;
-} Face;
+} NearFace;
 
-static int faces_near(const WallDrag *drag, const float x[3], Face faces[6])
+static int faces_near(const WallDrag *drag, const float x[3], NearFace faces[6])
 {
     int count = 0;
     for (int a = 0; a < drag->dimensions; a++) {
@@ -201,13 +205,13 @@ static int faces_near(const WallDrag *drag, const float x[3], Face faces[6])
         const float distance[2] = {drag->half_size[a] + centred, drag->half_size[a] - centred};
         for (int side = 0; side < 2; side++)
             if (distance[side] < drag->range)
-                faces[count++] = (Face){a, a == 1 && side == 1, fmaxf(distance[side], 0)};
+                faces[count++] = (NearFace){a, a == 1 && side == 1, fmaxf(distance[side], 0)};
     }
     return count;
 }
 
 /* Linear interpolation at the distances to 1, 2 or 3 faces. */
-static float table_at(const WallDrag *drag, const Face *const faces[], int count)
+static float table_at(const WallDrag *drag, const NearFace *const faces[], int count)
 {
     const float *table = drag->table[count - 1];
     const int nodes = drag->nodes[count - 1];
@@ -235,20 +239,20 @@ static float table_at(const WallDrag *drag, const Face *const faces[], int count
 /* Faces - edges + corners: all, or only those with the lid. */
 static float drag_sum(const WallDrag *drag, const float x[3], bool lid_only)
 {
-    Face face[6];
+    NearFace face[6];
     const int count = faces_near(drag, x, face);
     float sum = 0;
     for (int a = 0; a < count; a++) {
         if (!lid_only || face[a].lid)
-            sum += table_at(drag, (const Face *[]){&face[a]}, 1);
+            sum += table_at(drag, (const NearFace *[]){&face[a]}, 1);
         for (int b = a + 1; b < count; b++) {
             if (face[b].axis == face[a].axis)
                 continue;
             if (!lid_only || face[a].lid || face[b].lid)
-                sum -= table_at(drag, (const Face *[]){&face[a], &face[b]}, 2);
+                sum -= table_at(drag, (const NearFace *[]){&face[a], &face[b]}, 2);
             for (int c = b + 1; c < count; c++)
                 if (face[c].axis != face[b].axis && (!lid_only || face[a].lid || face[b].lid || face[c].lid))
-                    sum += table_at(drag, (const Face *[]){&face[a], &face[b], &face[c]}, 3);
+                    sum += table_at(drag, (const NearFace *[]){&face[a], &face[b], &face[c]}, 3);
         }
     }
     return sum;
@@ -264,16 +268,16 @@ float wall_drag_lid(const WallDrag *drag, const float x[3])
     return drag_sum(drag, x, true);
 }
 
-typedef struct Images {
+typedef struct WallImageReach {
     WallImage *image;
     float near2[IMAGES_MAX]; /* squared distance of each image to the box, m2 */
     int count;
     float h2;
-} Images;
+} WallImageReach;
 
 /* Mirrors the first `from` images in the wall across `axis` at `wall`, on `side`; d: distance of the point
    to the wall. */
-static void mirror(Images *images, int from, int axis, float wall, float side, float d)
+static void mirror(WallImageReach *images, int from, int axis, float wall, float side, float d)
 {
     for (int k = 0; k < from; k++) {
         if (images->near2[k] + d * d >= images->h2)
@@ -290,7 +294,7 @@ int wall_images(const Walls *walls, const float x[3], float h, WallImage image[I
 {
     const float least = 1e-3f * walls->spacing; /* otherwise the image of a touching particle has no
                                                    direction */
-    Images images = {.image = image, .count = 1, .h2 = h * h};
+    WallImageReach images = {.image = image, .count = 1, .h2 = h * h};
     image[0] = (WallImage){{x[0], x[1], x[2]}, {1, 1, 1}};
     images.near2[0] = 0;
     for (int a = 0; a < walls->dimensions; a++) {
@@ -306,7 +310,15 @@ int wall_images(const Walls *walls, const float x[3], float h, WallImage image[I
     return images.count;
 }
 
-double wall_lift_brute(const Lattice *lattice, double spacing, double support_radius, double d)
+/* lift over lift at the wall. */
+static float shape(float d, float h)
+{
+    const float t = fmaxf(1 - d / h, 0), t2 = t * t;
+    return t2 * t2 * t * (3 - 2 * t);
+}
+
+/* Lift of a single wall at distance d, m, as a sum over the lattice. */
+static double lift_by_lattice(const Lattice *lattice, double spacing, double support_radius, double d)
 {
     const double h = support_radius;
     const int reach = (int)ceil(h / spacing), across = lattice->dimensions == 3 ? reach : 0;
@@ -322,18 +334,11 @@ double wall_lift_brute(const Lattice *lattice, double spacing, double support_ra
     return lattice->gradient_scale * sum / lattice->number_density;
 }
 
-/* lift over lift at the wall. */
-static float shape(float d, float h)
-{
-    const float t = fmaxf(1 - d / h, 0), t2 = t * t;
-    return t2 * t2 * t * (3 - 2 * t);
-}
-
 WallLift wall_lift_of(const Lattice *lattice, double spacing, double support_radius)
 {
     const double layer = 0.5 * spacing;
     const float h = (float)support_radius,
-                held = (float)wall_lift_brute(lattice, spacing, support_radius, layer);
+                held = (float)lift_by_lattice(lattice, spacing, support_radius, layer);
     return (WallLift){h, held / shape((float)layer, h)};
 }
 

@@ -7,11 +7,11 @@
 #include <string.h>
 
 /* Positions of the copies of a box cell: across a periodic side, or across several sides in a corner. */
-typedef struct Shown {
+typedef struct PeriodicCopies {
     int count;
     uint32_t place[7]; /* places of the fold for outermost cells */
     int sides[7][3];   /* crossed sides: the copies' shift in box sizes */
-} Shown;
+} PeriodicCopies;
 
 /* Moves a cell across the sides of the axes set in `axes`; false if the cell is not next to each of these
    sides. */
@@ -30,7 +30,7 @@ static bool cross(const Constants *s, int axes, int at[3], int sides[3])
     return true;
 }
 
-static void shown(const Cpu *cpu, uint32_t cell, Shown *out)
+static void shown(const Cpu *cpu, uint32_t cell, PeriodicCopies *out)
 {
     const int *size = cpu->constants->cells.size;
     const uint32_t width = (uint32_t)size[0], height = (uint32_t)size[1];
@@ -61,7 +61,7 @@ static size_t count_copies(Cpu *cpu)
     const size_t places = cpu->fold.count;
     const uint32_t *cell = cpu->spare_cell;
     uint32_t *start = cpu->copy_start;
-    Shown across;
+    PeriodicCopies across;
     memset(start, 0, (places + 2) * sizeof *start);
     for (size_t i = 0, stop; i < cpu->count; i = stop) {
         for (stop = i + 1; stop < cpu->count && cell[stop] == cell[i];)
@@ -78,7 +78,7 @@ static size_t count_copies(Cpu *cpu)
 bool cpu_copies_fit(Cpu *cpu)
 {
     cpu->copies = count_copies(cpu);
-    return cpu->copies <= cpu->copy_room;
+    return cpu->copies <= cpu->copy_capacity;
 }
 
 void cpu_copies_drop(Cpu *cpu)
@@ -91,7 +91,7 @@ void cpu_copies_drop(Cpu *cpu)
 /* Places the copies in the order of the originals. */
 static void place_copies(Cpu *cpu)
 {
-    Shown across = {.count = 0};
+    PeriodicCopies across = {.count = 0};
     uint32_t last = UINT32_MAX;
     for (size_t i = 0; i < cpu->count; i++) {
         if (cpu->cell[i] != last)
@@ -114,14 +114,14 @@ static ColumnRows rows_among(const Cpu *cpu, const char *list, const char *other
     return rows;
 }
 
-typedef struct Copying {
+typedef struct ColumnCopyJob {
     Cpu *cpu;
     const ColumnRows *rows;
-} Copying;
+} ColumnCopyJob;
 
 static void copy_rows(void *state, size_t begin, size_t end)
 {
-    const Copying *copying = state;
+    const ColumnCopyJob *copying = state;
     const Cpu *cpu = copying->cpu;
     columns_copy(copying->rows, &cpu->now, &cpu->now, cpu->copy_of, cpu->count + begin, cpu->count + end);
 }
@@ -140,7 +140,7 @@ static void shift_places(void *state, size_t begin, size_t end)
 
 static void copies_of_rows(Cpu *cpu, const ColumnRows *rows)
 {
-    Copying copying = {cpu, rows};
+    ColumnCopyJob copying = {cpu, rows};
     parallel_ranges(cpu->threads, cpu->copies, 4 * CPU_GRAIN, copy_rows, &copying);
 }
 
@@ -215,14 +215,14 @@ static void place_one(Cpu *cpu, size_t i)
     p->vx[i] = v[0], p->vy[i] = v[1], p->vz[i] = v[2];
 }
 
-typedef struct Place {
+typedef struct BoundaryPoseJob {
     Cpu *cpu;
     bool which[SOLIDS_MAX];
-} Place;
+} BoundaryPoseJob;
 
 static void place_range(void *context, size_t begin, size_t end)
 {
-    const Place *place = context;
+    const BoundaryPoseJob *place = context;
     Cpu *cpu = place->cpu;
     for (size_t k = begin; k < end; k++) {
         const size_t i = cpu->boundary_at[k];
@@ -231,7 +231,7 @@ static void place_range(void *context, size_t begin, size_t end)
     }
 }
 
-static void place_solids(const Place *place)
+static void place_solids(const BoundaryPoseJob *place)
 {
     Cpu *cpu = place->cpu;
     bool any = false;
@@ -244,7 +244,7 @@ static void place_solids(const Place *place)
 
 void cpu_boundary_move(Cpu *cpu, const SolidStep *steps)
 {
-    Place place = {.cpu = cpu};
+    BoundaryPoseJob place = {.cpu = cpu};
     bool moves = false; /* true if the solid or an earlier solid moves, which may uncover particles of the
                            solid */
     for (int k = 0; k < cpu->constants->solid_count; k++) {
@@ -270,7 +270,7 @@ void cpu_boundary_append(Cpu *cpu)
 void cpu_pose(void *state, const SolidPose *pose)
 {
     Cpu *cpu = state;
-    Place place = {.cpu = cpu};
+    BoundaryPoseJob place = {.cpu = cpu};
     for (int k = 0; k < cpu->constants->solid_count; k++) {
         cpu->solid[k] = (SolidStep){.begin = pose[k], .end = pose[k]};
         place.which[k] = true;
@@ -286,11 +286,11 @@ void cpu_boundary_terms(Cpu *cpu, size_t i)
 }
 
 /* Weighted sums over the fluid around a boundary particle. */
-typedef struct Seen {
+typedef struct FluidSums {
     float weight, pressure, viscosity, density_x[3], v[3];
-} Seen;
+} FluidSums;
 
-static void see(const Cpu *cpu, const PairArgs *args, const float x[3], uint32_t j, Seen *seen)
+static void see(const Cpu *cpu, const PairArgs *args, const float x[3], uint32_t j, FluidSums *seen)
 {
     const Constants *s = cpu->constants;
     const float d[3] = {x[0] - args->x[j], x[1] - args->y[j], x[2] - args->z[j]};
@@ -314,13 +314,13 @@ typedef struct BoundaryPass {
 } BoundaryPass;
 
 /* The rows of cells around `cell`, kept for the next boundary particle in the same cell. */
-typedef struct Around {
+typedef struct CellRowList {
     uint32_t cell;
     int count; /* of rows; 0: no cell yet */
     CellRow rows[CELL_ROWS];
-} Around;
+} CellRowList;
 
-static void look_around(const PairArgs *args, uint32_t cell, Around *around)
+static void look_around(const PairArgs *args, uint32_t cell, CellRowList *around)
 {
     if (around->count > 0 && around->cell == cell)
         return;
@@ -331,7 +331,7 @@ static void look_around(const PairArgs *args, uint32_t cell, Around *around)
 /* Adami, Hu, Adams, "A generalized wall boundary condition for smoothed particle hydrodynamics", 2012, eq.
    27 and 23: the fluid's pressure continues hydrostatically; with no slip, the fluid's velocity is mirrored
    at the wall's velocity. With slip the volume is 0, so that friction ignores the particle. */
-static void fill_one(const BoundaryPass *pass, const PairArgs *args, Around *around, size_t i)
+static void fill_one(const BoundaryPass *pass, const PairArgs *args, CellRowList *around, size_t i)
 {
     Cpu *cpu = pass->cpu;
     const Constants *s = cpu->constants;
@@ -341,7 +341,7 @@ static void fill_one(const BoundaryPass *pass, const PairArgs *args, Around *aro
         return;
     const float x[3] = {p->x[i], p->y[i], p->z[i]}, volume = 1 / s->rest_number_density;
     const bool sticks = s->holds && s->solids[solid].slip == SLIP_NONE;
-    Seen seen = {0};
+    FluidSums seen = {0};
     look_around(args, cpu->cell[i], around);
     for (const CellRow *row = around->rows; row < around->rows + around->count; row++) {
         const float *shift = row->shift, from[3] = {x[0] + shift[0], x[1] + shift[1], x[2] + shift[2]};
@@ -373,7 +373,7 @@ static void fill_range(void *context, size_t begin, size_t end)
 {
     const BoundaryPass *pass = context;
     const PairArgs args = cpu_pair_args(pass->cpu);
-    Around around = {.count = 0};
+    CellRowList around = {.count = 0};
     for (size_t k = begin; k < end; k++)
         fill_one(pass, &args, &around, pass->cpu->boundary_at[k]);
 }
@@ -387,7 +387,7 @@ void cpu_boundary_fill(Cpu *cpu, const ApparentGravity *gravity)
 /* Restore the boundary particles' own velocities. */
 static void restore_range(void *context, size_t begin, size_t end)
 {
-    const Place *place = context;
+    const BoundaryPoseJob *place = context;
     const Cpu *cpu = place->cpu;
     const CpuParticles *p = &cpu->now;
     for (size_t k = begin; k < end; k++) {
@@ -405,7 +405,7 @@ static void restore_range(void *context, size_t begin, size_t end)
 void cpu_boundary_restore(Cpu *cpu)
 {
     const Constants *s = cpu->constants;
-    Place place = {.cpu = cpu};
+    BoundaryPoseJob place = {.cpu = cpu};
     bool any = false;
     for (int k = 0; k < s->solid_count; k++)
         any |= place.which[k] = s->holds && s->solids[k].slip == SLIP_NONE;

@@ -2,13 +2,10 @@
 #ifndef SIM_CPU_CPU_H
 #define SIM_CPU_CPU_H
 
-#include "sim/base/parallel.h"
-#include "sim/base/sums.h"
+#include "sim/base/base.h"
 #include "sim/cpu/pairs.h"
 #include "sim/def/fluids.h"
 #include "sim/step/backend.h"
-#include "sim/step/backend_sums.h"
-#include "sim/step/cells.h"
 #include "sim/step/method.h"
 #include "slosh/world.h"
 
@@ -21,7 +18,7 @@ typedef struct Cpu {
     size_t count, owned; /* all particles, with boundary and ghost particles; own particles */
     size_t capacity;     /* room for particles */
     CpuParticles now;
-    CpuParticles spare; /* target of the sort in `grid`; then its columns and those of `now` are swapped */
+    CpuParticles spare; /* target of the sort in `grid`; then the columns of `spare` and `now` are swapped */
     ColumnRows all, saved, sorted, of_fluids; /* all columns; columns with these flags */
     float (*place)[4], (*motion)[4];          /* packed for pair sums: see PairArgs */
     NeighbourLists lists;                     /* made by the first pass after `grid` that walks */
@@ -32,7 +29,7 @@ typedef struct Cpu {
     uint32_t *cell_start;   /* by `grid`, per place of `fold`: places + 2; the last for particles set aside */
     size_t gridded;         /* by `grid`: particles in the grid */
     size_t copies;          /* by `grid`, with periodic sides: copies of particles across a side, after */
-    size_t copy_room;       /* the particles; room for copies */
+    size_t copy_capacity;   /* the particles; room for copies */
     uint32_t *copy_of;      /* per copy: index of the original; from entry `count` on */
     uint8_t *copy_side;     /* per copy: crossed sides; from entry 0 on */
     uint32_t *copy_start;   /* first copy of each place of `fold`; places + 2; NULL: no periodic sides */
@@ -43,13 +40,13 @@ typedef struct Cpu {
     const uint8_t *foreign; /* per cell: 1 if the cell belongs to a foreign rank and has ghosts; NULL: no
                                ghosts */
     uint8_t *ghost;         /* by `grid`, per particle: 1 for a ghost; NULL: no ghosts */
-    SolidStep solid[SOLIDS_MAX]; /* last move per solid; solids are at its end */
-    WorldSums *partial;          /* by `sums`: an entry per range */
-    WorldGauge gauge;            /* by `gauge` */
-    size_t bytes;                /* of all arrays above */
-    size_t guarded;              /* atomic */
-    Forces *forces;              /* sums of forces on box and solids; NULL: not requested */
-    struct CpuForceSums *felt;   /* scratch for these sums: sim/cpu/cpu.h */
+    SolidStep solid[SOLIDS_MAX];     /* last move per solid; solids are at its end */
+    WorldSums *partial;              /* by `sums`: an entry per range */
+    WorldGauge gauge;                /* by `gauge` */
+    size_t bytes;                    /* of all arrays above */
+    size_t guarded;                  /* atomic */
+    Forces *forces;                  /* sums of forces on box and solids; NULL: not requested */
+    struct CpuForceSums *force_sums; /* scratch for these sums */
     /* Replaces each of `count` sums by the sum over all processes of the world; NULL: a single process. */
     void (*sum_all)(ExactSum *sums, int count);
     StepWatch watch; /* written by `kick` (atomic), read and reset by `watch` */
@@ -129,6 +126,14 @@ uint32_t cpu_cell_of(const Constants *constants, const float x[3]);
    memory is short. */
 bool cpu_share(Cpu *cpu, const uint8_t *foreign);
 
+/* The arrays of a state with constants, capacity and copy_capacity. Returns false if memory is short; call
+   cpu_arrays_destroy in either case. */
+bool cpu_arrays_create(Cpu *cpu, Error *error);
+void cpu_arrays_destroy(Cpu *cpu);
+
+/* Creates needed columns that are missing. */
+bool cpu_columns_fit(Cpu *cpu);
+
 /* Grows the room to `capacity` particles, boundary particles included. Keeps columns with COLUMN_SORTED;
    build the grid afterwards. Returns false if memory is short, with nothing changed. */
 bool cpu_grow(Cpu *cpu, size_t capacity);
@@ -194,10 +199,10 @@ void cpu_sums(void *state, WorldSums *sums);
 bool cpu_read(void *state, const ParticleArrays *out);
 extern const struct BackendMicro cpu_micro;
 /* sim/cpu/forces.c, if forces were requested. _kick: call after a kick to add its forces. _drift: adds the
-   impulses of the drift's guards, summed by sim/cpu/cpu.h. */
-bool cpu_feel(void *state, Forces *to, Error *error);
-void cpu_feel_kick(Cpu *cpu, float dt);
-void cpu_feel_drift(Cpu *cpu);
+   impulses of the drift's guards, summed below. */
+bool cpu_enable_forces(void *state, Forces *to, Error *error);
+void cpu_add_kick_forces(Cpu *cpu, float dt);
+void cpu_add_drift_forces(Cpu *cpu);
 bool cpu_gauge(void *state, const double gravity[3]);
 bool cpu_gauged(void *state, WorldGauge *gauge, bool waits);
 void cpu_energy(void *state, bool turning, EnergySums *sums);
@@ -222,11 +227,11 @@ typedef struct CpuForceSums {
 
 /* cpu_force_sums_begin zeroes the sum; cpu_force_sums_merge adds a range's part to the sum. */
 void cpu_force_sums_begin(Cpu *cpu);
-void cpu_force_sums_merge(Cpu *cpu, const CpuForceSums *felt);
+void cpu_force_sums_merge(Cpu *cpu, const CpuForceSums *sums);
 
-/* Adds to `felt` the impulse of the guard of `whom` on a particle at x (m): velocity `before` became v.
-   Then sets `before` to v. `felt` NULL: adds nothing. */
-void cpu_force_of_guard(CpuForceSums *felt, int whom, float mass, const float x[3], const float v[3],
+/* Adds to `sums` the impulse of the guard of `whom` on a particle at x (m): velocity `before` became v.
+   Then sets `before` to v. `sums` NULL: adds nothing. */
+void cpu_force_of_guard(CpuForceSums *sums, int whom, float mass, const float x[3], const float v[3],
                         float before[3]);
 
 /* A method's pass on the CPU: loops over all particles in sequence, each loop in parallel ranges. */
@@ -260,7 +265,7 @@ typedef struct SolidPair {
 typedef void (*SolidForce)(const SolidPair *pair, float force[3]);
 
 typedef struct CpuPass {
-    CpuLoop loops[3];                             /* ended by a loop without a body */
+    CpuLoop loops[4];                             /* ended by a loop without a body */
     PairCost (*pair)(const Constants *constants); /* counted as in sim/step/method.h; NULL: no pairs */
     SolidForce solid; /* for forces on solids, after the pass; NULL: no lasting force on solids */
 } CpuPass;
@@ -275,7 +280,7 @@ static inline void cpu_pairs(const CpuRange *range, const PairLoops *loops)
 }
 
 /* sim/cpu/forces.c: adds the forces of a pass on solids over dt (s). */
-void cpu_feel_solids(Cpu *cpu, SolidForce force, float dt);
+void cpu_add_solid_forces(Cpu *cpu, SolidForce force, float dt);
 
 /* F U = -W'(r) / r of a kernel, 1/m2, times `scale`: for few pairs. */
 static inline float cpu_slope(const Kernel *kernel, const SolidPair *pair, double scale)
@@ -296,8 +301,12 @@ static inline float cpu_pair_viscosity(const SolidPair *pair)
 /* Adds surface tension, then turns the summed forces into accelerations. */
 void cpu_force_end(const CpuRange *range);
 
-/* Adds sim/box/walls.h; call after cpu_force_end. */
+/* Adds the cushion of the walls (sim/box/box.h); call after cpu_force_end. */
 void cpu_cushion(const CpuRange *range);
+
+/* Adds the share of a particle's weight held by the walls (WallLift); call after cpu_force_end. Fades out
+   below the pressure of `from` + 1 layers, so that a drop on a wall falls freely. */
+void cpu_wall_lift(const CpuRange *range, float from);
 
 /* The machine's peak rates on some threads: the best of a few tries. */
 

@@ -2,7 +2,7 @@
    is summed over pairs in a separate loop, only on request. */
 #include "sim/cpu/cpu.h"
 
-#include "sim/start/fill.h"
+#include "sim/start/start.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,11 +10,11 @@
 
 enum { KICK_GRAIN = 4 * CPU_GRAIN };
 
-bool cpu_feel(void *state, Forces *to, Error *error)
+bool cpu_enable_forces(void *state, Forces *to, Error *error)
 {
     Cpu *cpu = state;
     cpu->forces = NULL;
-    if (to && !cpu->felt && !(cpu->felt = malloc(sizeof *cpu->felt)))
+    if (to && !cpu->force_sums && !(cpu->force_sums = malloc(sizeof *cpu->force_sums)))
         return error_set(error, "no memory to sum forces");
     cpu->forces = to;
     return true;
@@ -24,31 +24,31 @@ bool cpu_feel(void *state, Forces *to, Error *error)
 
 void cpu_force_sums_begin(Cpu *cpu)
 {
-    memset(cpu->felt, 0, sizeof *cpu->felt);
+    memset(cpu->force_sums, 0, sizeof *cpu->force_sums);
 }
 
 /* Adds a push to the box (`whom` 0) or to solid k (`whom` 1 + k). */
-static void cpu_force_sums_add(CpuForceSums *felt, int whom, const Push *push)
+static void cpu_force_sums_add(CpuForceSums *sums, int whom, const Push *push)
 {
     ExactSum *number;
-    if (!felt->any)
-        memset(felt, 0, sizeof *felt);
-    felt->any = true;
-    number = felt->of[whom].number;
+    if (!sums->any)
+        memset(sums, 0, sizeof *sums);
+    sums->any = true;
+    number = sums->of[whom].number;
     for (int k = 0; k < 3; k++) {
         exact_add(&number[k], push->force[k]);
         exact_add(&number[3 + k], push->torque[k]);
     }
 }
 
-void cpu_force_sums_merge(Cpu *cpu, const CpuForceSums *felt)
+void cpu_force_sums_merge(Cpu *cpu, const CpuForceSums *sums)
 {
-    if (!felt->any)
+    if (!sums->any)
         return;
     parallel_lock();
     for (int whom = 0; whom <= cpu->constants->solid_count; whom++)
         for (int k = 0; k < PUSH_NUMBERS; k++)
-            exact_merge(&cpu->felt->of[whom].number[k], &felt->of[whom].number[k]);
+            exact_merge(&cpu->force_sums->of[whom].number[k], &sums->of[whom].number[k]);
     parallel_unlock();
 }
 
@@ -58,11 +58,11 @@ static void sum_up(Cpu *cpu, Push out[FORCE_SUMS_MAX])
     const int width = cpu->constants->solid_count + 1;
     const double unit = cpu->constants->unit_volume; /* forces are in units of U */
     if (cpu->sum_all)
-        cpu->sum_all(cpu->felt->of[0].number, width * PUSH_NUMBERS);
+        cpu->sum_all(cpu->force_sums->of[0].number, width * PUSH_NUMBERS);
     for (int whom = 0; whom < width; whom++)
         for (int k = 0; k < 3; k++) {
-            out[whom].force[k] = unit * exact_value(&cpu->felt->of[whom].number[k]);
-            out[whom].torque[k] = unit * exact_value(&cpu->felt->of[whom].number[3 + k]);
+            out[whom].force[k] = unit * exact_value(&cpu->force_sums->of[whom].number[k]);
+            out[whom].torque[k] = unit * exact_value(&cpu->force_sums->of[whom].number[3 + k]);
         }
 }
 
@@ -76,19 +76,19 @@ static void add_to_solid(Cpu *cpu, int solid, Push *push)
 
 /* ---- the kick ---- */
 
-typedef struct Kick {
+typedef struct KickForceJob {
     Cpu *cpu;
     double dt;
-} Kick;
+} KickForceJob;
 
 static void kick_range(void *context, size_t begin, size_t end)
 {
-    const Kick *kick = context;
+    const KickForceJob *kick = context;
     Cpu *cpu = kick->cpu;
     const CpuParticles *p = &cpu->now;
     const size_t last = cpu_cell_first(cpu, end);
-    CpuForceSums felt;
-    felt.any = false;
+    CpuForceSums sums;
+    sums.any = false;
     for (size_t k = cpu_cell_first(cpu, begin); k < last;) {
         Push of_cell = {.force = {0}};
         do {
@@ -97,14 +97,14 @@ static void kick_range(void *context, size_t begin, size_t end)
             push_at(&of_cell, (double[]){(double)p->x[i], (double)p->y[i], (double)p->z[i]},
                     (double[]){m * (double)p->ax[i], m * (double)p->ay[i], m * (double)p->az[i]});
         } while (++k < last && cpu_cell_goes_on(cpu, k));
-        cpu_force_sums_add(&felt, 0, &of_cell);
+        cpu_force_sums_add(&sums, 0, &of_cell);
     }
-    cpu_force_sums_merge(cpu, &felt);
+    cpu_force_sums_merge(cpu, &sums);
 }
 
-void cpu_feel_kick(Cpu *cpu, float dt)
+void cpu_add_kick_forces(Cpu *cpu, float dt)
 {
-    Kick kick = {cpu, (double)dt};
+    KickForceJob kick = {cpu, (double)dt};
     Push all[FORCE_SUMS_MAX];
     cpu_force_sums_begin(cpu);
     parallel_ranges(cpu->threads, cpu->owned, KICK_GRAIN, kick_range, &kick);
@@ -115,7 +115,7 @@ void cpu_feel_kick(Cpu *cpu, float dt)
 
 /* ---- guards ---- */
 
-void cpu_force_of_guard(CpuForceSums *felt, int whom, float mass, const float x[3], const float v[3],
+void cpu_force_of_guard(CpuForceSums *sums, int whom, float mass, const float x[3], const float v[3],
                         float before[3])
 {
     Push push = {.force = {0}};
@@ -125,13 +125,13 @@ void cpu_force_of_guard(CpuForceSums *felt, int whom, float mass, const float x[
         impulse[k] = (double)mass * ((double)before[k] - (double)v[k]);
         before[k] = v[k];
     }
-    if (!felt)
+    if (!sums)
         return;
     push_at(&push, at, impulse);
-    cpu_force_sums_add(felt, whom, &push);
+    cpu_force_sums_add(sums, whom, &push);
 }
 
-void cpu_feel_drift(Cpu *cpu)
+void cpu_add_drift_forces(Cpu *cpu)
 {
     Push all[FORCE_SUMS_MAX];
     sum_up(cpu, all);
@@ -168,7 +168,7 @@ static void add_pair(const SolidPass *pass, const float from[3], size_t i, size_
 
 /* Adds the fluid in entries [begin, end) of Cpu.fluid_at, cell by cell. Ghosts are left to their owners. */
 static void add_fluid(const SolidPass *pass, const float from[3], size_t begin, size_t end, size_t b,
-                      CpuForceSums *felt)
+                      CpuForceSums *sums)
 {
     const Cpu *cpu = pass->cpu;
     const int whom = 1 + cpu->now.fluid[b] - FLUIDS_MAX;
@@ -180,11 +180,11 @@ static void add_fluid(const SolidPass *pass, const float from[3], size_t begin, 
             if (own)
                 add_pair(pass, from, cpu->fluid_at[k], b, &of_cell);
         if (own)
-            cpu_force_sums_add(felt, whom, &of_cell);
+            cpu_force_sums_add(sums, whom, &of_cell);
     }
 }
 
-static void add_boundary(const SolidPass *pass, const PairArgs *args, size_t b, CpuForceSums *felt)
+static void add_boundary(const SolidPass *pass, const PairArgs *args, size_t b, CpuForceSums *sums)
 {
     const Cpu *cpu = pass->cpu;
     const CpuParticles *p = &cpu->now;
@@ -195,7 +195,7 @@ static void add_boundary(const SolidPass *pass, const PairArgs *args, size_t b, 
     for (int row = 0; row < count; row++) {
         const float *shift = rows[row].shift,
                     from[3] = {p->x[b] + shift[0], p->y[b] + shift[1], p->z[b] + shift[2]};
-        add_fluid(pass, from, cpu->fluid_before[rows[row].begin], cpu->fluid_before[rows[row].end], b, felt);
+        add_fluid(pass, from, cpu->fluid_before[rows[row].begin], cpu->fluid_before[rows[row].end], b, sums);
     }
 }
 
@@ -203,15 +203,15 @@ static void solid_range(void *context, size_t begin, size_t end)
 {
     const SolidPass *pass = context;
     const PairArgs args = cpu_pair_args(pass->cpu);
-    CpuForceSums felt;
-    felt.any = false;
+    CpuForceSums sums;
+    sums.any = false;
     for (size_t k = begin; k < end; k++)
-        add_boundary(pass, &args, pass->cpu->boundary_at[k], &felt);
-    cpu_force_sums_merge(pass->cpu, &felt);
+        add_boundary(pass, &args, pass->cpu->boundary_at[k], &sums);
+    cpu_force_sums_merge(pass->cpu, &sums);
 }
 
 /* A push on a solid is taken off the box. */
-void cpu_feel_solids(Cpu *cpu, SolidForce force, float dt)
+void cpu_add_solid_forces(Cpu *cpu, SolidForce force, float dt)
 {
     SolidPass pass = {cpu, force, dt};
     Push all[FORCE_SUMS_MAX];
@@ -288,16 +288,16 @@ size_t cpu_emit(void *state, const EmitLayer *layer, size_t most)
     return number;
 }
 
-typedef struct Guiding {
+typedef struct GuideJob {
     Cpu *cpu;
     const Guide *guides;
     int count;
     ExactSum *work;
-} Guiding;
+} GuideJob;
 
 /* Adds the work of setting a particle to the guide's velocity: impulse times guide velocity, as for a
    moving wall. Owners count the work of ghosts. */
-static void guide_one(const Guiding *pass, size_t i, const float to[3], ExactSum *work)
+static void guide_one(const GuideJob *pass, size_t i, const float to[3], ExactSum *work)
 {
     const Cpu *cpu = pass->cpu;
     const CpuParticles *p = &cpu->now;
@@ -312,7 +312,7 @@ static void guide_one(const Guiding *pass, size_t i, const float to[3], ExactSum
 
 static void guide_range(void *context, size_t begin, size_t end)
 {
-    const Guiding *pass = context;
+    const GuideJob *pass = context;
     const CpuParticles *p = &pass->cpu->now;
     ExactSum work = {.strange = false};
     for (size_t i = begin; i < end; i++) {
@@ -330,7 +330,7 @@ double cpu_guide(void *state, const Guide *guides, int count)
 {
     Cpu *cpu = state;
     ExactSum work = {.strange = false};
-    Guiding pass = {cpu, guides, count, &work};
+    GuideJob pass = {cpu, guides, count, &work};
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, guide_range, &pass);
     if (cpu->sum_all)
         cpu->sum_all(&work, 1);

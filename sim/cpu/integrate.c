@@ -3,14 +3,14 @@
 #include <math.h>
 #include <string.h>
 
-typedef struct Drift {
+typedef struct DriftJob {
     Cpu *cpu;
     const BoxStep *step;
-} Drift;
+} DriftJob;
 
-/* Number of times solids and walls held particle i. `felt`: NULL if forces are not requested. */
-static size_t guard(const Drift *drift, const WallsFar *inside, size_t i, float x[3], float v[3],
-                    CpuForceSums *felt)
+/* Number of times solids and walls held particle i. `sums`: NULL if forces are not requested. */
+static size_t guard(const DriftJob *drift, const WallsFar *inside, size_t i, float x[3], float v[3],
+                    CpuForceSums *sums)
 {
     const Constants *s = drift->cpu->constants;
     const CpuParticles *p = &drift->cpu->now;
@@ -24,18 +24,18 @@ static size_t guard(const Drift *drift, const WallsFar *inside, size_t i, float 
             solid_guard(&s->solids[k], &solids[k], s->dimensions, before, x, v)) {
             by_solid = true;
             way = way_bounds(before, x);
-            cpu_force_of_guard(felt, 1 + k, mass, x, v, free);
+            cpu_force_of_guard(sums, 1 + k, mass, x, v, free);
         }
     if (walls_near(inside, x)) {
         by_wall = s->method->leaps ? walls_fold(&s->walls, 0.5f / drift->step->dt, x, v)
                                    : walls_guard(&s->walls, x, v);
-        cpu_force_of_guard(felt, 0, mass, x, v, free);
+        cpu_force_of_guard(sums, 0, mass, x, v, free);
     }
     return (size_t)by_solid + (size_t)by_wall;
 }
 
 /* Number of times guards held particles of the run [begin, end). */
-static inline size_t drift_run(const Drift *drift, size_t begin, size_t end, CpuForceSums *felt,
+static inline size_t drift_run(const DriftJob *drift, size_t begin, size_t end, CpuForceSums *sums,
                                const bool wide)
 {
     const Cpu *cpu = drift->cpu;
@@ -52,7 +52,7 @@ static inline size_t drift_run(const Drift *drift, size_t begin, size_t end, Cpu
         box_advance(drift->step, x, wide ? left : NULL, v);
         if (solids || walls_near(&inside, x)) {
             const float free[3] = {x[0], x[1], x[2]};
-            held += guard(drift, &inside, i, x, v, felt);
+            held += guard(drift, &inside, i, x, v, sums);
             place_put(free, x, wide ? left : NULL);
         }
         if (wraps)
@@ -71,16 +71,16 @@ static inline size_t drift_run(const Drift *drift, size_t begin, size_t end, Cpu
 
 static void drift_range(void *context, size_t begin, size_t end)
 {
-    const Drift *drift = context;
-    const bool feels = drift->cpu->forces;
-    CpuForceSums felt;
+    const DriftJob *drift = context;
+    const bool sums_forces = drift->cpu->forces;
+    CpuForceSums sums;
     size_t held = 0;
-    felt.any = false;
+    sums.any = false;
     for (size_t i = begin, stop; cpu_run(drift->cpu, &i, end, &stop); i = stop)
-        held += drift->cpu->constants->wide ? drift_run(drift, i, stop, feels ? &felt : NULL, true)
-                                            : drift_run(drift, i, stop, feels ? &felt : NULL, false);
-    if (feels)
-        cpu_force_sums_merge(drift->cpu, &felt);
+        held += drift->cpu->constants->wide ? drift_run(drift, i, stop, sums_forces ? &sums : NULL, true)
+                                            : drift_run(drift, i, stop, sums_forces ? &sums : NULL, false);
+    if (sums_forces)
+        cpu_force_sums_merge(drift->cpu, &sums);
     if (held)
         __atomic_fetch_add(&drift->cpu->guarded, held, __ATOMIC_RELAXED);
 }
@@ -88,14 +88,14 @@ static void drift_range(void *context, size_t begin, size_t end)
 void cpu_drift(void *state, const BoxStep *step)
 {
     Cpu *cpu = state;
-    Drift drift = {cpu, step};
+    DriftJob drift = {cpu, step};
     if (cpu->forces)
         cpu_force_sums_begin(cpu);
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, drift_range, &drift);
     if (step->solids)
         cpu_boundary_move(cpu, step->solids);
     if (cpu->forces)
-        cpu_feel_drift(cpu);
+        cpu_add_drift_forces(cpu);
 }
 
 static void wrap_range(void *context, size_t begin, size_t end)
@@ -130,11 +130,11 @@ void cpu_leave(void *state)
         parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, wrap_range, cpu);
 }
 
-typedef struct Kick {
+typedef struct KickJob {
     Cpu *cpu;
     const float *gravity;
     float dt;
-} Kick;
+} KickJob;
 
 /* Atomic maximum of non-negative values: their bits have the same order. */
 static void atomic_greatest(float *greatest, float value)
@@ -147,9 +147,9 @@ static void atomic_greatest(float *greatest, float value)
         ;
 }
 
-/* Drag of the walls, sim/box/walls.h, implicit: v' = v + (a + g - k v') dt. So the drag cannot
+/* Drag of the walls, sim/box/box.h, implicit: v' = v + (a + g - k v') dt. So the drag cannot
    overshoot, however near the wall. The remaining a + g replaces a. */
-static void hold_by_walls(const Kick *kick, size_t begin, size_t end)
+static void hold_by_walls(const KickJob *kick, size_t begin, size_t end)
 {
     Cpu *cpu = kick->cpu;
     const Constants *s = cpu->constants;
@@ -169,7 +169,7 @@ static void hold_by_walls(const Kick *kick, size_t begin, size_t end)
     }
 }
 
-static void kick_run(const Kick *kick, size_t begin, size_t end)
+static void kick_run(const KickJob *kick, size_t begin, size_t end)
 {
     Cpu *cpu = kick->cpu;
     const CpuParticles *p = &cpu->now;
@@ -204,7 +204,7 @@ static void kick_run(const Kick *kick, size_t begin, size_t end)
 
 static void kick_range(void *context, size_t begin, size_t end)
 {
-    const Kick *kick = context;
+    const KickJob *kick = context;
     for (size_t i = begin, stop; cpu_run(kick->cpu, &i, end, &stop); i = stop)
         kick_run(kick, i, stop);
 }
@@ -212,18 +212,18 @@ static void kick_range(void *context, size_t begin, size_t end)
 void cpu_kick(void *state, const float gravity[3], float dt)
 {
     Cpu *cpu = state;
-    Kick kick = {cpu, gravity, dt};
+    KickJob kick = {cpu, gravity, dt};
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, kick_range, &kick);
     if (cpu->forces)
-        cpu_feel_kick(cpu, dt);
+        cpu_add_kick_forces(cpu, dt);
 }
 
-typedef struct Touching {
+typedef struct FingerJob {
     Cpu *cpu;
     const FingerStep *finger;
-} Touching;
+} FingerJob;
 
-static void touch_run(const Touching *touch, size_t begin, size_t end)
+static void touch_run(const FingerJob *touch, size_t begin, size_t end)
 {
     const CpuParticles *p = &touch->cpu->now;
     const FingerStep *finger = touch->finger;
@@ -240,7 +240,7 @@ static void touch_run(const Touching *touch, size_t begin, size_t end)
 
 static void touch_range(void *context, size_t begin, size_t end)
 {
-    const Touching *touch = context;
+    const FingerJob *touch = context;
     for (size_t i = begin, stop; cpu_run(touch->cpu, &i, end, &stop); i = stop)
         touch_run(touch, i, stop);
 }
@@ -248,7 +248,7 @@ static void touch_range(void *context, size_t begin, size_t end)
 void cpu_touch(void *state, const FingerStep *finger)
 {
     Cpu *cpu = state;
-    Touching touch = {cpu, finger};
+    FingerJob touch = {cpu, finger};
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, touch_range, &touch);
 }
 

@@ -15,36 +15,36 @@
 static const uint64_t compressed[256] = {COMPRESS64(0), COMPRESS64(64), COMPRESS64(128), COMPRESS64(192)};
 
 /* The kept lanes and their number. */
-typedef struct Kept {
+typedef struct PackedLanes {
     int count;
     __m256i lanes;
-} Kept;
+} PackedLanes;
 
-SIMD_INLINE Kept kept(i8 mask)
+SIMD_INLINE PackedLanes packed_lanes(i8 mask)
 {
     const int bits = i8_bits(mask);
-    return (Kept){__builtin_popcount((unsigned)bits),
-                  _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)compressed[bits]))};
+    return (PackedLanes){__builtin_popcount((unsigned)bits),
+                         _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)compressed[bits]))};
 }
 
 /* Stores the kept lanes in sequence, and arbitrary values up to LANES. */
-SIMD_INLINE void keep(void *out, i8 from, Kept kept)
+SIMD_INLINE void store_packed(void *out, i8 from, PackedLanes packed_lanes)
 {
-    _mm256_storeu_si256(out, _mm256_permutevar8x32_epi32((__m256i)from, kept.lanes));
+    _mm256_storeu_si256(out, _mm256_permutevar8x32_epi32((__m256i)from, packed_lanes.lanes));
 }
 
 /* Distance of x to the box along an axis; 0 inside. */
-SIMD_INLINE f8 outside(const Around *box, int axis, f8 x)
+SIMD_INLINE f8 outside(const BlockBounds *box, int axis, f8 x)
 {
     const f8 d = x - f8_splat(box->middle[axis]);
     return f8_positive((f8)((i8)d & i8_splat(INT32_MAX)) - f8_splat(box->half[axis]));
 }
 
 /* Adds the particles of [begin, end) in or near the box. */
-SIMD_INLINE void block_add(const PairArgs *args, const Around *around_box, uint32_t begin, uint32_t end,
-                           Block *block)
+SIMD_INLINE void block_add(const PairArgs *args, const BlockBounds *around_box, uint32_t begin, uint32_t end,
+                           CandidateBlock *block)
 {
-    const Around box = *around_box;
+    const BlockBounds box = *around_box;
     const f8 reach2 = f8_splat(block_reach2(args));
     const float *const px = args->x, *const py = args->y, *const pz = args->z;
     int count = block->count;
@@ -52,11 +52,11 @@ SIMD_INLINE void block_add(const PairArgs *args, const Around *around_box, uint3
         const f8 x = f8_load(px + j), y = f8_load(py + j), z = f8_load(pz + j);
         const f8 dx = outside(&box, 0, x), dy = outside(&box, 1, y), dz = outside(&box, 2, z);
         const i8 there = lane_index < i8_splat((int32_t)(end - j));
-        const Kept seen = kept((dx * dx + dy * dy + dz * dz < reach2) & there);
-        keep(block->x + count, (i8)x, seen);
-        keep(block->y + count, (i8)y, seen);
-        keep(block->z + count, (i8)z, seen);
-        keep(block->j + count, lane_index + i8_splat((int32_t)j), seen);
+        const PackedLanes seen = packed_lanes((dx * dx + dy * dy + dz * dz < reach2) & there);
+        store_packed(block->x + count, (i8)x, seen);
+        store_packed(block->y + count, (i8)y, seen);
+        store_packed(block->z + count, (i8)z, seen);
+        store_packed(block->j + count, lane_index + i8_splat((int32_t)j), seen);
         count += seen.count;
     }
     block->count = count;
@@ -64,11 +64,11 @@ SIMD_INLINE void block_add(const PairArgs *args, const Around *around_box, uint3
 
 /* Appends the neighbours of particle i among the candidates. */
 SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const float *y, const float *z,
-                       const int32_t *j, int count, Writer *out)
+                       const int32_t *j, int count, ListWriter *out)
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
     const f8 h2 = f8_splat(h * h), least2 = f8_splat(least * least);
-    const Place at = {f8_splat(args->x[i]), f8_splat(args->y[i]), f8_splat(args->z[i])};
+    const LaneVector at = {f8_splat(args->x[i]), f8_splat(args->y[i]), f8_splat(args->z[i])};
     const i8 self = i8_splat((int32_t)i);
     i8 coincident = i8_splat(0); /* counted down */
     int32_t *to = out->at;
@@ -77,8 +77,8 @@ SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const flo
         f8 r2 = dx * dx + dy * dy + dz * dz;
         if (count - k < LANES)
             r2 = f8_select(lane_index < i8_splat(count - k), r2, f8_splat(INFINITY));
-        const Kept seen = kept((r2 < h2) & (i8_load(j + k) != self));
-        keep(to, i8_load(j + k), seen);
+        const PackedLanes seen = packed_lanes((r2 < h2) & (i8_load(j + k) != self));
+        store_packed(to, i8_load(j + k), seen);
         to += seen.count;
         coincident += r2 < least2;
     }
@@ -108,7 +108,7 @@ SIMD_INLINE void turn(__m256i row[LANES])
 
 /* Interleaves the lists: `rows` rows of LANES entries, rounded up to whole LANES, `none` past a list's
    end. */
-SIMD_INLINE void interleave(const uint32_t *index, const Found *found, uint32_t rows, uint32_t none,
+SIMD_INLINE void interleave(const uint32_t *index, const FoundNeighbours *found, uint32_t rows, uint32_t none,
                             uint32_t *to)
 {
     for (uint32_t k = 0; k < rows; k += LANES) {

@@ -8,18 +8,18 @@
 enum { BLOCK_MOST = 2048 /* 32 kB: the fluid around a cell at the widest support */ };
 
 /* Candidates: positions and indices. */
-typedef struct Block {
+typedef struct CandidateBlock {
     int count;
     float x[BLOCK_MOST + LANES], y[BLOCK_MOST + LANES], z[BLOCK_MOST + LANES];
     int32_t j[BLOCK_MOST + LANES];
-} Block;
+} CandidateBlock;
 
 /* The bounding box of some particles: centre and half size, m. */
-typedef struct Around {
+typedef struct BlockBounds {
     float middle[3], half[3];
-} Around;
+} BlockBounds;
 
-static void around(const PairArgs *args, size_t begin, size_t end, Around *box)
+static void block_bounds(const PairArgs *args, size_t begin, size_t end, BlockBounds *box)
 {
     const float *const column[3] = {args->x, args->y, args->z};
     for (int k = 0; k < 3; k++) {
@@ -44,15 +44,15 @@ SIMD_INLINE float block_reach2(const PairArgs *args)
 
 /* A group's lists before interleaving, in sequence, each filled up to whole LANES: begin and number of
    entries. */
-typedef struct Found {
+typedef struct FoundNeighbours {
     uint32_t first[LANES], count[LANES], used;
     bool coincident;
-} Found;
+} FoundNeighbours;
 
 /* The list under construction. */
-typedef struct Writer {
+typedef struct ListWriter {
     int32_t *at;
     int coincident; /* counts the particle itself */
-} Writer;
+} ListWriter;
 
 #endif

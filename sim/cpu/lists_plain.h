@@ -6,7 +6,7 @@
 #include "sim/cpu/lists_block.h"
 
 /* Distance of x to the box along an axis; 0 inside. */
-SIMD_INLINE float outside(const Around *box, int axis, float x)
+SIMD_INLINE float outside(const BlockBounds *box, int axis, float x)
 {
     const float d = fabsf(x - box->middle[axis]) - box->half[axis];
     return d > 0 ? d : 0;
@@ -14,10 +14,10 @@ SIMD_INLINE float outside(const Around *box, int axis, float x)
 
 /* Adds the particles of [begin, end) in the box or within slightly more than h of the box: the margin
    covers rounding of positions. */
-static void block_add(const PairArgs *args, const Around *around_box, uint32_t begin, uint32_t end,
-                      Block *block)
+static void block_add(const PairArgs *args, const BlockBounds *around_box, uint32_t begin, uint32_t end,
+                      CandidateBlock *block)
 {
-    const Around box = *around_box;
+    const BlockBounds box = *around_box;
     const float reach2 = block_reach2(args);
     const float *const x = args->x + begin, *const y = args->y + begin, *const z = args->z + begin;
     const int count = (int)(end - begin);
@@ -39,7 +39,7 @@ static void block_add(const PairArgs *args, const Around *around_box, uint32_t b
 
 /* Appends the neighbours of particle i among at most BLOCK_MOST candidates. */
 SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const float *y, const float *z,
-                       const int32_t *j, int count, Writer *out)
+                       const int32_t *j, int count, ListWriter *out)
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
     const float at[3] = {args->x[i], args->y[i], args->z[i]};
@@ -62,7 +62,8 @@ SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const flo
 }
 
 /* Interleaves the lists: `rows` rows of LANES entries, `none` past a list's end. */
-static void interleave(const uint32_t *index, const Found *found, uint32_t rows, uint32_t none, uint32_t *to)
+static void interleave(const uint32_t *index, const FoundNeighbours *found, uint32_t rows, uint32_t none,
+                       uint32_t *to)
 {
     for (int lane = 0; lane < LANES; lane++) {
         const uint32_t *from = index + found->first[lane], count = found->count[lane];

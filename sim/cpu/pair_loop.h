@@ -5,9 +5,9 @@
 #ifndef SIM_CPU_PAIR_LOOP_H
 #define SIM_CPU_PAIR_LOOP_H
 
-#include "sim/box/walls.h"
+#include "sim/base/simd.h"
+#include "sim/box/box.h"
 #include "sim/cpu/pairs.h"
-#include "sim/cpu/simd.h"
 #include "sim/kernel/kernel.h"
 #include "sim/step/constants.h"
 
@@ -35,28 +35,28 @@ SIMD_INLINE void lanes_add(float *column, size_t i, size_t begin, size_t end, f8
 }
 
 /* Positions of a group's particles. */
-typedef struct Place {
+typedef struct LaneVector {
     f8 x, y, z;
-} Place;
+} LaneVector;
 
-SIMD_INLINE Place place_of(const PairArgs *args, size_t i)
+SIMD_INLINE LaneVector place_of(const PairArgs *args, size_t i)
 {
-    return (Place){f8_load(args->x + i), f8_load(args->y + i), f8_load(args->z + i)};
+    return (LaneVector){f8_load(args->x + i), f8_load(args->y + i), f8_load(args->z + i)};
 }
 
 /* The lists of a group. */
-typedef struct Near {
+typedef struct NeighbourRange {
     const uint32_t *first, *end;
     bool coincident; /* some particle of the group nearly coincides with a neighbour */
-} Near;
+} NeighbourRange;
 
-SIMD_INLINE Near near_of(const PairArgs *args, size_t i)
+SIMD_INLINE NeighbourRange neighbour_range_of(const PairArgs *args, size_t i)
 {
     const NeighbourLists *lists = args->lists;
     const uint32_t *first = lists->of_range[i / LISTS_GRAIN].index + lists->first[i / LANES],
                    rows = lists->rows[i / LANES];
-    return (Near){first, first + LANES * (rows & ~(uint32_t)LISTS_COINCIDENT),
-                  (rows & LISTS_COINCIDENT) != 0};
+    return (NeighbourRange){first, first + LANES * (rows & ~(uint32_t)LISTS_COINCIDENT),
+                            (rows & LISTS_COINCIDENT) != 0};
 }
 
 /* NEIGHBOURS (near, j) { const Separation d = separation(args, at, j); ... }: for the next neighbour of
@@ -69,14 +69,14 @@ typedef struct Separation {
 } Separation;
 
 /* From neighbours at p, in the layout of args->place. */
-SIMD_INLINE Separation apart(Place at, f8x4 p)
+SIMD_INLINE Separation apart(LaneVector at, f8x4 p)
 {
     Separation d = {.x = at.x - p.x, .y = at.y - p.y, .z = at.z - p.z, .term = p.w};
     d.r2 = d.x * d.x + d.y * d.y + d.z * d.z;
     return d;
 }
 
-SIMD_INLINE Separation separation(const PairArgs *args, Place at, const uint32_t *j)
+SIMD_INLINE Separation separation(const PairArgs *args, LaneVector at, const uint32_t *j)
 {
     return apart(at, f8_load4(args->place, j));
 }
@@ -168,23 +168,23 @@ static inline __attribute__((unused)) Separation separate(const PairArgs *args, 
     return separate_to(args, i, j, d, TWINS_NEAR);
 }
 
-/* Images of particles in the box's walls (sim/box/walls.h), per group. For files compiled for each
+/* Images of particles in the box's walls (sim/box/box.h), per group. For files compiled for each
    instruction set. */
 
 /* An image of each particle of a group: position and signs of the mirror. Lanes without an image stand far
    away. All neighbours of an image are neighbours of the particle, which is nearer to everything on its
    side of the wall. An image can see the particle itself. */
 typedef struct ImageParticle {
-    Place at, sign;
+    LaneVector at, sign;
 } ImageParticle;
 
 /* Images of a group, in the order of wall_images. */
-typedef struct Images {
+typedef struct LaneImages {
     int count; /* without the particles, which are entry 0 */
     ImageParticle of[IMAGES_MAX];
     f8 near2[IMAGES_MAX]; /* squared distance of each image to the box, m2 */
     i8 there[IMAGES_MAX]; /* mask of the particles that have the image */
-} Images;
+} LaneImages;
 
 /* The region of particles without wall images; the margin covers rounding of squares. */
 SIMD_INLINE WallsFar out_of_sight(const Constants *s)
@@ -192,7 +192,7 @@ SIMD_INLINE WallsFar out_of_sight(const Constants *s)
     return walls_far(&s->walls, 1.001f * s->support_radius);
 }
 
-SIMD_INLINE i8 beside_walls(const WallsFar *far, const Place *at)
+SIMD_INLINE i8 beside_walls(const WallsFar *far, const LaneVector *at)
 {
     return (at->x < f8_splat(far->low[0])) | (at->x > f8_splat(far->high[0])) |
            (at->y < f8_splat(far->low[1])) | (at->y > f8_splat(far->high[1])) |
@@ -201,7 +201,7 @@ SIMD_INLINE i8 beside_walls(const WallsFar *far, const Place *at)
 
 /* Mirrors images 0 to `from` - 1 in the wall across `axis` at `wall`, on `side`. `d`: distance of the
    particles to the wall. */
-SIMD_INLINE void mirror_in(Images *images, int from, int axis, float wall, float side, f8 d, float h2)
+SIMD_INLINE void mirror_in(LaneImages *images, int from, int axis, float wall, float side, f8 d, float h2)
 {
     const f8 at = f8_splat(wall) - f8_splat(side) * d, d2 = d * d, away = f8_splat(-PAST), none = f8_splat(0);
     for (int k = 0; k < from; k++) {
@@ -216,21 +216,21 @@ SIMD_INLINE void mirror_in(Images *images, int from, int axis, float wall, float
         images->near2[to] = near2;
         images->there[to] = there;
         images->of[to].at =
-            (Place){f8_select(there, x, away), f8_select(there, y, away), f8_select(there, z, away)};
-        images->of[to].sign = (Place){f8_select(there, axis == 0 ? one : of->sign.x, none),
-                                      f8_select(there, axis == 1 ? one : of->sign.y, none),
-                                      f8_select(there, axis == 2 ? one : of->sign.z, none)};
+            (LaneVector){f8_select(there, x, away), f8_select(there, y, away), f8_select(there, z, away)};
+        images->of[to].sign = (LaneVector){f8_select(there, axis == 0 ? one : of->sign.x, none),
+                                           f8_select(there, axis == 1 ? one : of->sign.y, none),
+                                           f8_select(there, axis == 2 ? one : of->sign.z, none)};
     }
 }
 
 /* Fills in wall_images of each particle of the group; false if no particle has an image. */
 SIMD_INLINE bool images_of(const PairArgs *args, const WallsFar *far, size_t i, size_t begin, size_t end,
-                           Images *images)
+                           LaneImages *images)
 {
     const Constants *s = args->constants;
     const Walls *walls = &s->walls;
     const float h = s->support_radius, least = 1e-3f * walls->spacing;
-    const Place at = place_of(args, i);
+    const LaneVector at = place_of(args, i);
     const f8 along[3] = {at.x, at.y, at.z}, one = f8_splat(1);
     const i8 lane = lane_index + i8_splat((int32_t)i);
     images->count = 0;
@@ -264,9 +264,9 @@ SIMD_INLINE SelfLanes themselves(const PairArgs *args, size_t i)
     return own;
 }
 
-SIMD_INLINE Near near_themselves(const SelfLanes *own)
+SIMD_INLINE NeighbourRange neighbours_of_own_lanes(const SelfLanes *own)
 {
-    return (Near){own->j, own->j + LANES, false};
+    return (NeighbourRange){own->j, own->j + LANES, false};
 }
 
 /* The kernels named by solver.kernel, in pair loops. For files compiled for each instruction set. */
@@ -301,7 +301,7 @@ SIMD_INLINE f8 height(f8 q, const ShapeKernel kernel)
 }
 
 /* The wall images of each group and the neighbours of each image, kept from the first walk of a step for
-   later walks: an image sees an eighth of the neighbours of its particles. For methods with
+   later walks. An image sees an eighth of the neighbours of its particles. For methods with
    Method.keeps_images; for files compiled for each instruction set. */
 
 /* Layout of an image in ListMemory, LANES numbers per part: {rows of the image's list, 1 if the group has a
@@ -320,10 +320,10 @@ SIMD_INLINE const uint32_t *first_image(const PairArgs *args, size_t i)
 }
 
 /* Reads the image at `from` and its neighbours. Returns the next image or NULL. */
-SIMD_INLINE const uint32_t *next_image(const uint32_t *from, ImageParticle *image, Near *near)
+SIMD_INLINE const uint32_t *next_image(const uint32_t *from, ImageParticle *image, NeighbourRange *near)
 {
     memcpy(image, from + IMAGE_HEAD, sizeof *image);
-    *near = (Near){from + IMAGE_ENTRIES, from + IMAGE_ENTRIES + (size_t)LANES * from[0], false};
+    *near = (NeighbourRange){from + IMAGE_ENTRIES, from + IMAGE_ENTRIES + (size_t)LANES * from[0], false};
     return from[1] ? near->end : NULL;
 }
 

@@ -7,8 +7,9 @@
 #ifndef SIM_CPU_PAIRS_H
 #define SIM_CPU_PAIRS_H
 
-#include "sim/box/box_step.h"
-#include "sim/step/cells.h"
+#include "sim/base/base.h"
+#include "sim/box/box.h"
+#include "sim/step/backend.h"
 #include "slosh/error.h"
 #include "slosh/state.h"
 
@@ -17,14 +18,13 @@
 #include <stdint.h>
 
 enum {
-    LANES = 8,                 /* particles that walk side by side: see sim/cpu/simd.h */
     LISTS_GRAIN = 512,         /* particles per range */
     LISTS_COINCIDENT = 1 << 30 /* in `rows`: some particle of the group nearly coincides with a neighbour */
 };
 
 typedef struct ListMemory {
     uint32_t *index;
-    uint32_t room; /* indices */
+    uint32_t capacity; /* indices */
 } ListMemory;
 
 typedef struct NeighbourLists {
@@ -39,11 +39,6 @@ typedef struct NeighbourLists {
     bool full;             /* memory was short: some lists are incomplete; atomic while lists are made */
 } NeighbourLists;
 
-/* Makes room for lists of `particles` particles with about `neighbours` neighbours each. Returns false if
-   memory is short. */
-bool neighbour_lists_create(NeighbourLists *lists, size_t particles, double neighbours);
-void neighbour_lists_destroy(NeighbourLists *lists);
-
 /* Current size in bytes; the lists can grow. */
 size_t neighbour_lists_bytes(const NeighbourLists *lists);
 
@@ -51,7 +46,7 @@ size_t neighbour_lists_bytes(const NeighbourLists *lists);
    `full` if memory is short. */
 bool neighbour_lists_fit(NeighbourLists *lists, ListMemory *memory, size_t indices);
 
-/* Inputs and outputs of sums over neighbours, the hottest loops. */
+/* Inputs and outputs of sums over neighbours, the loops that take most of the time. */
 
 /* Position of the dummy particle that fills up lists, m; its square is finite. */
 #define PAST 1e9F

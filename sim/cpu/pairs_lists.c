@@ -7,12 +7,12 @@
 #endif
 
 /* Nine rows of three cells, each of particles or of copies. */
-typedef struct Rows {
+typedef struct CellRowRanges {
     int count;
     uint32_t begin[27], end[27];
-} Rows;
+} CellRowRanges;
 
-static void rows_add(Rows *rows, uint32_t begin, uint32_t end)
+static void rows_add(CellRowRanges *rows, uint32_t begin, uint32_t end)
 {
     if (begin == end)
         return;
@@ -25,7 +25,7 @@ static void rows_add(Rows *rows, uint32_t begin, uint32_t end)
 }
 
 /* All particles in `cell` and the cells around, with copies across periodic sides. */
-static void rows_of(const PairArgs *args, uint32_t cell, Rows *rows)
+static void rows_of(const PairArgs *args, uint32_t cell, CellRowRanges *rows)
 {
     const Constants *s = args->constants;
     const uint32_t width = (uint32_t)s->cells.size[0], height = (uint32_t)s->cells.size[1];
@@ -45,10 +45,11 @@ static void rows_of(const PairArgs *args, uint32_t cell, Rows *rows)
 }
 
 /* The block of particles [begin, end) of a cell. False if the crowd around overflows the block. */
-static bool block_make(const PairArgs *args, const Rows *rows, size_t begin, size_t end, Block *block)
+static bool block_make(const PairArgs *args, const CellRowRanges *rows, size_t begin, size_t end,
+                       CandidateBlock *block)
 {
-    Around box;
-    around(args, begin, end, &box);
+    BlockBounds box;
+    block_bounds(args, begin, end, &box);
     block->count = 0;
     for (int row = 0; row < rows->count; row++) {
         if (block->count + (int)(rows->end[row] - rows->begin[row]) > BLOCK_MOST)
@@ -58,13 +59,13 @@ static bool block_make(const PairArgs *args, const Rows *rows, size_t begin, siz
     return true;
 }
 
-static void list_block(const PairArgs *args, size_t i, const Block *block, Writer *out)
+static void list_block(const PairArgs *args, size_t i, const CandidateBlock *block, ListWriter *out)
 {
     offer(args, i, block->x, block->y, block->z, block->j, block->count, out);
 }
 
 /* For a crowd too large for a block. */
-static void list_rows(const PairArgs *args, size_t i, const Rows *rows, Writer *out)
+static void list_rows(const PairArgs *args, size_t i, const CellRowRanges *rows, ListWriter *out)
 {
     int32_t index[BLOCK_MOST + LANES];
     for (int row = 0; row < rows->count; row++)
@@ -78,7 +79,7 @@ static void list_rows(const PairArgs *args, size_t i, const Rows *rows, Writer *
 }
 
 /* Upper bound of the number of candidates. */
-static size_t most_of(const Rows *rows)
+static size_t most_of(const CellRowRanges *rows)
 {
     size_t most = 0;
     for (int row = 0; row < rows->count; row++)
@@ -87,7 +88,8 @@ static size_t most_of(const Rows *rows)
 }
 
 /* Lists particle i after the group's lists so far. The list stays empty if memory is short. */
-static void list_one(const PairArgs *args, size_t i, const Rows *rows, const Block *block, Found *found)
+static void list_one(const PairArgs *args, size_t i, const CellRowRanges *rows, const CandidateBlock *block,
+                     FoundNeighbours *found)
 {
     NeighbourLists *lists = args->lists;
     ListMemory *memory = &lists->found[i / LISTS_GRAIN];
@@ -95,7 +97,7 @@ static void list_one(const PairArgs *args, size_t i, const Rows *rows, const Blo
     if (!neighbour_lists_fit(lists, memory, found->used + most))
         return;
     int32_t *const first = (int32_t *)memory->index + found->used;
-    Writer out = {.at = first};
+    ListWriter out = {.at = first};
     if (block)
         list_block(args, i, block, &out);
     else
@@ -109,27 +111,27 @@ static void list_one(const PairArgs *args, size_t i, const Rows *rows, const Blo
 }
 
 /* Interleaves the lists of particle i's group after the `used` entries of the range. */
-static void list_group(const PairArgs *args, size_t i, const Found *found, uint32_t *used)
+static void list_group(const PairArgs *args, size_t i, const FoundNeighbours *found, uint32_t *used)
 {
     NeighbourLists *lists = args->lists;
     ListMemory *memory = &lists->of_range[i / LISTS_GRAIN];
     uint32_t rows = 0;
     for (int lane = 0; lane < LANES; lane++)
         rows = found->count[lane] > rows ? found->count[lane] : rows;
-    const uint32_t room = (rows + LANES - 1) / LANES * LANES * LANES;
+    const uint32_t capacity = (rows + LANES - 1) / LANES * LANES * LANES;
     lists->first[i / LANES] = *used;
     lists->rows[i / LANES] = 0;
-    if (rows == 0 || !neighbour_lists_fit(lists, memory, (size_t)*used + room))
+    if (rows == 0 || !neighbour_lists_fit(lists, memory, (size_t)*used + capacity))
         return;
     interleave(lists->found[i / LISTS_GRAIN].index, found, rows, args->none, memory->index + *used);
     lists->rows[i / LANES] = rows | (found->coincident ? LISTS_COINCIDENT : 0);
     *used += rows * LANES;
 }
 
-typedef struct Making {
-    Found found;
+typedef struct ListBuild {
+    FoundNeighbours found;
     uint32_t used; /* entries of the range's memory */
-} Making;
+} ListBuild;
 
 /* True for particles set aside, which have no neighbours, and for ghosts, which their owners list. */
 static bool has_no_lists(const PairArgs *args, uint32_t cell)
@@ -138,12 +140,12 @@ static bool has_no_lists(const PairArgs *args, uint32_t cell)
 }
 
 /* Lists the particles [begin, end), a cell or part of a cell. Boundary particles and ghosts have no lists. */
-static void list_cell(const PairArgs *args, size_t begin, size_t end, bool last, Making *making)
+static void list_cell(const PairArgs *args, size_t begin, size_t end, bool last, ListBuild *making)
 {
     const uint32_t cell = args->cell[begin];
     const bool aside = has_no_lists(args, cell);
-    Rows rows = {.count = 0};
-    Block block;
+    CellRowRanges rows = {.count = 0};
+    CandidateBlock block;
     if (!aside)
         rows_of(args, cell, &rows);
     const bool fits = block_make(args, &rows, begin, end, &block);
@@ -152,7 +154,7 @@ static void list_cell(const PairArgs *args, size_t begin, size_t end, bool last,
             list_one(args, i, &rows, fits ? &block : NULL, &making->found);
         if ((last && i + 1 == end) || (i + 1) % LANES == 0) {
             list_group(args, i, &making->found, &making->used);
-            making->found = (Found){.used = 0};
+            making->found = (FoundNeighbours){.used = 0};
         }
     }
 }
@@ -160,7 +162,7 @@ static void list_cell(const PairArgs *args, size_t begin, size_t end, bool last,
 /* Lists the particles of a range, from the range's first particle on. */
 PAIR_LOOP(lists)
 {
-    Making making = {.used = 0};
+    ListBuild making = {.used = 0};
     for (size_t i = begin, stop; i < end; i = stop) {
         for (stop = i + 1; stop < end && args->cell[stop] == args->cell[i];)
             stop++;

@@ -49,7 +49,7 @@ SIMD_INLINE uint32_t list_image(const PairArgs *args, size_t i, const ImageParti
                                 uint32_t *to)
 {
     const SelfLanes own = themselves(args, i);
-    const Near near = near_of(args, i);
+    const NeighbourRange near = neighbour_range_of(args, i);
     uint32_t count[LANES] = {0}, most = 0;
     for (size_t row = 0; row < rows; row++)
         i8_store((int32_t *)to + row * LANES, i8_splat((int32_t)args->none));
@@ -62,11 +62,11 @@ SIMD_INLINE uint32_t list_image(const PairArgs *args, size_t i, const ImageParti
 }
 
 /* Appends the image lists of a group after the `used` numbers of the range. Returns the new `used`. */
-SIMD_INLINE uint32_t list_images(const PairArgs *args, size_t i, const Images *images, uint32_t used)
+SIMD_INLINE uint32_t list_images(const PairArgs *args, size_t i, const LaneImages *images, uint32_t used)
 {
     NeighbourLists *lists = args->lists;
     ListMemory *memory = &lists->of_images[i / LISTS_GRAIN];
-    const Near near = near_of(args, i);
+    const NeighbourRange near = neighbour_range_of(args, i);
     const size_t rows = (size_t)(near.end - near.first) / LANES + 1;
     if (!neighbour_lists_fit(lists, memory, used + (size_t)images->count * (IMAGE_ENTRIES + LANES * rows)))
         return used;
@@ -85,7 +85,7 @@ SIMD_INLINE uint32_t list_images(const PairArgs *args, size_t i, const Images *i
 PAIR_LOOP(image_lists)
 {
     const WallsFar far = out_of_sight(args->constants);
-    Images images;
+    LaneImages images;
     uint32_t used = 0;
     GROUPS (i, begin, end) {
         args->lists->images[i / LANES] = 0;
@@ -112,8 +112,8 @@ static void add_cohesion(const PairArgs *args, size_t begin, size_t end)
     const f8 repulsion = f8_splat(w * w * w * w * w * w / 64), inverse = f8_splat(inverse_u);
 
     GROUPS (i, begin, end) {
-        const Place at = place_of(args, i);
-        const Near near = near_of(args, i);
+        const LaneVector at = place_of(args, i);
+        const NeighbourRange near = neighbour_range_of(args, i);
         const f8 ti = f8_load(args->tension + i), fi = f8_load(args->kind + i);
         f8 fx = f8_splat(0), fy = fx, fz = fx;
         NEIGHBOURS (near, j) {
@@ -147,8 +147,8 @@ static void add_colour_field(const PairArgs *args, size_t begin, size_t end)
     const f8 colour = f8_splat(s->colour);
 
     GROUPS (i, begin, end) {
-        const Place at = place_of(args, i);
-        const Near near = near_of(args, i);
+        const LaneVector at = place_of(args, i);
+        const NeighbourRange near = neighbour_range_of(args, i);
         const f8 fi = f8_load(args->kind + i);
         f8 nx = f8_splat(0), ny = nx, nz = nx, bend = nx;
         NEIGHBOURS (near, j) {

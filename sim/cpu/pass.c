@@ -1,6 +1,6 @@
 #include "sim/cpu/cpu.h"
 
-#include "sim/box/walls.h"
+#include "sim/box/box.h"
 #include "sim/cpu/pairs.h"
 #include "sim/step/method.h"
 
@@ -58,25 +58,16 @@ PAIR_LOOPS(lists);
 PAIR_LOOPS(image_lists);
 PAIR_LOOPS(tension);
 
-bool cpu_name_among(const char *list, const char *name)
-{
-    const size_t size = strlen(name);
-    for (const char *at = list; at && (at = strstr(at, name)); at += size)
-        if ((at == list || at[-1] == ' ') && (at[size] == ' ' || at[size] == 0))
-            return true;
-    return false;
-}
-
-typedef struct Running {
+typedef struct PassJob {
     Cpu *cpu;
     const Pass *pass;
     const CpuLoop *loop;
     const PassInput *input;
-} Running;
+} PassJob;
 
 static void run_range(void *context, size_t begin, size_t end)
 {
-    const Running *running = context;
+    const PassJob *running = context;
     Cpu *cpu = running->cpu;
     PairArgs args = cpu_pair_args(cpu);
     args.gravity = running->input->apparent;
@@ -95,7 +86,7 @@ static void run_range(void *context, size_t begin, size_t end)
 
 static void pack(void *context, size_t begin, size_t end)
 {
-    const Running *running = context;
+    const PassJob *running = context;
     Cpu *cpu = running->cpu;
     const CpuParticles *p = &cpu->now;
     if (running->loop->pack) {
@@ -108,7 +99,7 @@ static void pack(void *context, size_t begin, size_t end)
     }
 }
 
-static void run_loop(Running *running)
+static void run_loop(PassJob *running)
 {
     Cpu *cpu = running->cpu;
     const bool walks = running->loop->walks;
@@ -138,11 +129,11 @@ void cpu_run_pass(void *state, const Pass *pass, const PassInput *input)
     if (mirrors)
         cpu_boundary_fill(cpu, input->apparent);
     for (const CpuLoop *loop = pass->cpu->loops; loop->body; loop++) {
-        Running running = {cpu, pass, loop, input};
+        PassJob running = {cpu, pass, loop, input};
         run_loop(&running);
     }
     if (cpu->forces && cpu->boundary_at && pass->cpu->solid && input->dt > 0)
-        cpu_feel_solids(cpu, pass->cpu->solid, input->dt);
+        cpu_add_solid_forces(cpu, pass->cpu->solid, input->dt);
     if (mirrors)
         cpu_boundary_restore(cpu);
 }
@@ -179,6 +170,27 @@ void cpu_cushion(const CpuRange *range)
         p->ax[i] += share * a[0];
         p->ay[i] += share * a[1];
         p->az[i] += share * a[2];
+    }
+}
+
+void cpu_wall_lift(const CpuRange *range, float from)
+{
+    const Constants *s = range->cpu->constants;
+    const CpuParticles *p = &range->cpu->now;
+    const WallsFar far = walls_far(&s->walls, s->support_radius);
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float x[3] = {p->x[i], p->y[i], p->z[i]};
+        float g[3], lift[3];
+        if (!walls_near(&far, x))
+            continue;
+        apparent_gravity_at(range->input->apparent, x, g);
+        const float layer =
+            s->density[p->fluid[i]] * s->spacing * sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+        const float fade = layer > 0 ? fminf(fmaxf(p->pressure[i] / layer - from, 0), 1) : 0;
+        walls_lift(&s->lift, &s->walls, x, lift);
+        p->ax[i] -= fade * lift[0] * g[0];
+        p->ay[i] -= fade * lift[1] * g[1];
+        p->az[i] -= fade * lift[2] * g[2];
     }
 }
 

@@ -1,7 +1,7 @@
 /* Plotted sums of the state, computed on request. */
 #include "sim/cpu/cpu.h"
 
-#include "sim/step/backend_sums.h"
+#include "sim/step/backend.h"
 
 #include <math.h>
 #include <string.h>
@@ -138,21 +138,21 @@ void cpu_energy(void *state, bool turning, EnergySums *sums)
 
 /* Reads of the state: copies and sums. */
 
-typedef struct Read {
+typedef struct ReadJob {
     const Cpu *cpu;
     const ParticleArrays *out;
-} Read;
+} ReadJob;
 
 static void read_range(void *context, size_t begin, size_t end)
 {
-    const Read *read = context;
+    const ReadJob *read = context;
     particles_read(&read->cpu->now, read->cpu->constants, read->cpu->owned_at, begin, end, read->out);
 }
 
 bool cpu_read(void *state, const ParticleArrays *out)
 {
     Cpu *cpu = state;
-    Read read = {cpu, out};
+    ReadJob read = {cpu, out};
     parallel_ranges(cpu->threads, cpu->owned, 4 * CPU_GRAIN, read_range, &read);
     return true;
 }

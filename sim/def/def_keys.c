@@ -1,4 +1,4 @@
-#include "sim/base/color.h"
+#include "sim/base/base.h"
 #include "sim/base/key_rows.h"
 #include "sim/def/fluids.h"
 #include "slosh/def.h"
@@ -7,7 +7,7 @@
 
 const char *const slip_names[] = {[SLIP_FREE] = "free", [SLIP_NONE] = "none", NULL};
 
-double fluid_viscosity_at(const FluidDef *fluid, double time)
+static double fluid_viscosity_at(const FluidDef *fluid, double time)
 {
     return fluid->viscosity_table.rows > 0 ? time_table_at(&fluid->viscosity_table, time) : fluid->viscosity;
 }
@@ -22,12 +22,17 @@ double fluid_viscosity_least(const FluidDef *fluid)
     return fluid->viscosity_table.rows > 0 ? time_table_least(&fluid->viscosity_table) : fluid->viscosity;
 }
 
-WorldDef world_def_most_viscous(const WorldDef *def)
+const WorldDef *world_def_most_viscous(const WorldDef *def, WorldDef *space)
 {
-    WorldDef most = *def;
+    bool tables = false;
     for (int f = 0; f < def->fluid_count; f++)
-        most.fluids[f].viscosity = fluid_viscosity_most(&def->fluids[f]);
-    return most;
+        tables |= def->fluids[f].viscosity_table.rows > 0;
+    if (!tables)
+        return def;
+    *space = *def;
+    for (int f = 0; f < def->fluid_count; f++)
+        space->fluids[f].viscosity = fluid_viscosity_most(&def->fluids[f]);
+    return space;
 }
 
 void world_def_at(WorldDef *def, double time)
@@ -93,7 +98,7 @@ const Key step_keys[] = {
 };
 
 const Key box_motion_keys[] = {
-    LIST("motion", 0, 0, MOTIONS_MAX, AT(motions), AT(motion_count), Motion, NULL,
+    LIST("motion", KEY_POINTER, 0, MOTIONS_MAX, AT(motions), AT(motion_count), Motion, NULL,
          "how the box moves; all together, turns from the outermost to the innermost"),
     KEYS_END,
 };
@@ -130,7 +135,7 @@ static void fluid_init(void *element, int index)
     fluid->start = START_HYDROSTATIC;
     for (int k = 0; k < 3; k++)
         snprintf(fluid->flow[k], sizeof fluid->flow[k], "none");
-    snprintf(fluid->flow_file, sizeof fluid->flow_file, "none");
+    fluid->flow_file = "none";
     fluid->contact_angle = 90;
     for (int k = 0; k < 3; k++)
         fluid->color[k] = (float)srgb_to_linear(palette[index % 8][k]);
@@ -142,7 +147,7 @@ static void fill_init(void *element, int index)
     Fill *fill = element;
     fill->axis[1] = 1;
     fill->mesh.scale = 1;
-    snprintf(fill->below, sizeof fill->below, "none");
+    fill->below = "none";
 }
 
 /* clang-format off */
@@ -161,12 +166,12 @@ const Key fluid_keys[] = {
     TEXT("fluids[].velocity_formula.x", 0, FORMULA_SIZE, FLUID(flow[0]), NULL, "its x, m/s"),
     TEXT("fluids[].velocity_formula.y", 0, FORMULA_SIZE, FLUID(flow[1]), NULL, "its y, m/s"),
     TEXT("fluids[].velocity_formula.z", 0, FORMULA_SIZE, FLUID(flow[2]), NULL, "its z, m/s"),
-    TEXT("fluids[].velocity_table", 0, FILE_NAME_SIZE, FLUID(flow_file), NULL, "velocity at the start, besides these: a file .csv (between cells a comma, a semicolon or a tab), found from the scene's folder, with the columns x, y, z (m; as many of them as it depends on) and vx, vy, vz (m/s), a row for each place of a grid"),
+    FILE_TEXT("fluids[].velocity_table", 0, FLUID(flow_file), NULL, "velocity at the start, besides these: a file .csv (between cells a comma, a semicolon or a tab), found from the scene's folder, with the columns x, y, z (m; as many of them as it depends on) and vx, vy, vz (m/s), a row for each place of a grid"),
     NUMBER("fluids[].taylor_green", 0, "m/s", 0, 1000, FLUID(taylor_green), "besides it at the start Taylor and Green's vortices of that speed, two by two in x and y, with their pressure"),
     COLOR("fluids[].color", L | I | KEY_SINGLE, FLUID(color), "by turn", "sRGB: [red, green, blue], each 0 to 1"),
-    LIST("fluids[].fill", 0, 1, FILLS_MAX, FLUID(fills), FLUID(fill_count), Fill, fill_init,
+    LIST("fluids[].fill", KEY_POINTER, 1, FILLS_MAX, FLUID(fills), FLUID(fill_count), Fill, fill_init,
          "what the fluid fills at the start: blocks, balls, cylinders and meshes; a fluid needs this or emitters"),
-    TEXT("fluids[].fill[].below", 0, FILE_NAME_SIZE, FILL(below), NULL, "where the fill ends at a height of its own, m: a formula of x and z as in velocity_formula; or a file .csv as in velocity_table, with the columns x, z and height; its particles are moved to end there"),
+    FILE_TEXT("fluids[].fill[].below", 0, FILL(below), NULL, "where the fill ends at a height of its own, m: a formula of x and z as in velocity_formula; or a file .csv as in velocity_table, with the columns x, z and height; its particles are moved to end there"),
     VARIANT("fluids[].fill[].block", FILL(kind), FILL_BLOCK, "a block with faces along the axes"),
     VEC3("fluids[].fill[].block.min", R, "m", -1e6, 1e6, FILL(min), "its corner with the least x, y, z"),
     VEC3("fluids[].fill[].block.max", R, "m", -1e6, 1e6, FILL(max), "its corner with the greatest x, y, z"),
@@ -179,13 +184,13 @@ const Key fluid_keys[] = {
     NUMBER("fluids[].fill[].cylinder.height", R | O, "m", 0, 1e6, FILL(height), "its length"),
     VEC3("fluids[].fill[].cylinder.axis", 0, "", -1000, 1000, FILL(axis), "its direction"),
     VARIANT("fluids[].fill[].mesh", FILL(kind), FILL_MESH, "what a closed mesh of triangles from a file encloses, in three dimensions"),
-    TEXT("fluids[].fill[].mesh.file", R, FILE_NAME_SIZE, FILL(mesh.file), NULL, "as of solids[].mesh"),
+    FILE_TEXT("fluids[].fill[].mesh.file", R, FILL(mesh.file), NULL, "as of solids[].mesh"),
     VEC3("fluids[].fill[].mesh.centre", R, "m", -1e6, 1e6, FILL(centre), "where the middle of the block around it is"),
     NUMBER("fluids[].fill[].mesh.scale", O, "m", 0, 1e6, FILL(mesh.scale), "of a unit of the file"),
     VEC3("fluids[].fill[].mesh.axis", 0, "", -1000, 1000, FILL(axis), "what it is turned about"),
     NUMBER("fluids[].fill[].mesh.angle", 0, "degrees", -360, 360, FILL(angle_deg), "how far it is turned"),
 
-    LIST("fluids[].emit", 0, 0, EMITS_MAX, FLUID(emits), FLUID(emit_count), Emit, NULL,
+    LIST("fluids[].emit", KEY_POINTER, 0, EMITS_MAX, FLUID(emits), FLUID(emit_count), Emit, NULL,
          "what sends it out: a lattice at rest density, layer by layer, where there is room"),
     VARIANT("fluids[].emit[].disk", EMIT(kind), 0, "a disk; in two dimensions a line"),
     VEC3("fluids[].emit[].disk.centre", R, "m", -1e6, 1e6, EMIT(centre), "its centre"),
@@ -194,9 +199,9 @@ const Key fluid_keys[] = {
     NUMBER("fluids[].emit[].speed", R | O, "m/s", 0, 1000, EMIT(speed), "of the fluid, in the box's frame"),
     NUMBER("fluids[].emit[].start", 0, "s", 0, 1e6, EMIT(start), "nothing comes before it"),
     NUMBER("fluids[].emit[].duration", 0, "s", 0, 1e6, EMIT(duration), "0: for ever"),
-    BOOLEAN("fluids[].emit[].shut", 0, EMIT(shut), "shut at the start, until its gate is opened in the window or by a recording"),
+    BOOLEAN("fluids[].emit[].shut", 0, EMIT(closed), "shut at the start, until its gate is opened in the window or by a recording"),
     INTEGER("particles.most", 0, 1, 2000000000, AT(most), "upper limit on particles: while it is reached emitters pause, and nothing is poured; a scene may begin with more"),
-    LIST("drains", 0, 0, DRAINS_MAX, AT(drains), AT(drain_count), Fill, NULL,
+    LIST("drains", KEY_POINTER, 0, DRAINS_MAX, AT(drains), AT(drain_count), Fill, NULL,
          "where fluid leaves the scene"),
     VARIANT("drains[].block", FILL(kind), FILL_BLOCK, "a block with faces along the axes"),
     VEC3("drains[].block.min", R, "m", -1e6, 1e6, FILL(min), "its corner with the least x, y, z"),
@@ -204,7 +209,7 @@ const Key fluid_keys[] = {
     VARIANT("drains[].ball", FILL(kind), FILL_BALL, "a ball"),
     VEC3("drains[].ball.centre", R, "m", -1e6, 1e6, FILL(centre), "its centre"),
     NUMBER("drains[].ball.radius", R | O, "m", 0, 1e6, FILL(radius), "its radius"),
-    BOOLEAN("drains[].shut", 0, FILL(shut), "shut at the start, until its gate is opened in the window or by a recording"),
+    BOOLEAN("drains[].shut", 0, FILL(closed), "shut at the start, until its gate is opened in the window or by a recording"),
     KEYS_END,
 };
 /* clang-format on */
@@ -234,8 +239,9 @@ const Key fluid_keys[] = {
     NUMBER(S ".thickness", 0, "m", 0, 1e6, SOLID(thickness), "of its wall; 0: the support radius"),          \
         DIRECTION(S, "where it opens to")
 #define FIELDS_MESH(S)                                                                                       \
-    TEXT(S ".file", R, FILE_NAME_SIZE, SOLID(mesh.file), NULL,                                               \
-         "found from the scene's folder: .obj, .ply, .stl, .gltf or .glb, of at most 2,000,000 triangles"),  \
+    FILE_TEXT(                                                                                               \
+        S ".file", R, SOLID(mesh.file), NULL,                                                                \
+        "found from the scene's folder: .obj, .ply, .stl, .gltf or .glb, of at most 2,000,000 triangles"),   \
         CENTRE(S, "where the middle of the block around it is")                                              \
             NUMBER(S ".scale", O, "m", 0, 1e6, SOLID(mesh.scale), "of a unit of the file"),                  \
         DIRECTION(S, "what it is turned about")                                                              \
@@ -266,7 +272,7 @@ const Key solid_keys[] = {
     MAPPING("solids[].hinge", "what such a solid turns about, and does not leave; fixed to the box"),
     VEC3("solids[].hinge.at", 0, "m", -1e6, 1e6, SOLID(hinge_at), "a point of the axis"),
     VEC3("solids[].hinge.axis", 0, "", -1000, 1000, SOLID(hinge_axis), "its direction; in two dimensions [0, 0, 1]"),
-    LIST("solids[].motion", 0, 0, MOTIONS_MAX, SOLID(motions), SOLID(motion_count), Motion, NULL,
+    LIST("solids[].motion", KEY_POINTER, 0, MOTIONS_MAX, SOLID(motions), SOLID(motion_count), Motion, NULL,
          "how it moves in the box; all together, turns about its centre"),
     KEYS_END,
 };

@@ -99,9 +99,9 @@ double wetting_curvature(double angle, double spacing, double h)
 
 /* The offset a second way: by the balance of half a drop, kept by pair forces whatever the pressures are.
    Layers z below the surface of a drop of radius R have the part D of the weights and the curvature (d - 1) /
-   (R - z). With V the ball of one dimension less, and c = sum D z, the layers pull the halves together by
+   (R - z). Let V be the ball of one dimension less, and c = sum D z. The layers pull the halves together by
        sum D sigma (d - 1) V (R - z)^(d-2) = sigma (d - 1) V R^(d-2) (1 - (d - 2) c / R),
-   and pressure parts the halves by p V (R - L)^(d-1), L the width missing at the rim of the cut:
+   with L the width missing at the rim of the cut. Pressure parts the halves by p V (R - L)^(d-1), so
        p = sigma (d - 1) / R (1 + ((d - 1) L - (d - 2) c) / R).
    Missing are pairs with one end outside. With F = -W' / r such pairs carry F x^2 across the cut, so
        e = sum F x^2 |z| / (2 sum F x^2) = sum W |z| / (2 sum W)
@@ -155,12 +155,12 @@ double pair_viscosity(double a, double b)
 enum { REACH = 4, SITES = (2 * REACH + 1) * (2 * REACH + 1) * (2 * REACH + 1), WAVES = 8 };
 
 /* Half of the neighbours: a site and its mirror image weigh the same. */
-typedef struct Sites {
+typedef struct SurfaceSites {
     int count;
     double x[SITES][3]; /* spacings */
     double weight[SITES];
     bool along; /* friction acts along x alone */
-} Sites;
+} SurfaceSites;
 
 /* w(r): a pair's force is V_i V_j mu w v_ji, or V_i V_j mu w (v_ji . x) x for friction along the line. */
 static double friction_weight(const Lattice *lattice, Friction friction, double r, double h)
@@ -175,12 +175,12 @@ static double friction_weight(const Lattice *lattice, Friction friction, double 
 
 /* Sites along the lattice's first `axes` axes: a thread, a film, or the whole lattice. Returns the density of
    the sites over that of the lattice at rest. */
-static double sites_fill(Sites *sites, const Lattice *lattice, double spacing, Friction friction, int axes,
-                         double h, const Kernel *summed)
+static double sites_fill(SurfaceSites *sites, const Lattice *lattice, double spacing, Friction friction,
+                         int axes, double h, const Kernel *summed)
 {
     const int deep[3] = {REACH, axes > 1 ? REACH : 0, axes > 2 ? REACH : 0};
     double sum = summed ? summed->value(0, h) : 0;
-    *sites = (Sites){.along = friction == FRICTION_RADIAL || friction == FRICTION_ARTIFICIAL};
+    *sites = (SurfaceSites){.along = friction == FRICTION_RADIAL || friction == FRICTION_ARTIFICIAL};
     for (int i = -deep[0]; i <= deep[0]; i++)
         for (int j = -deep[1]; j <= deep[1]; j++)
             for (int k = -deep[2]; k <= deep[2]; k++) {
@@ -225,7 +225,7 @@ static double wave_cosine(int n)
 }
 
 /* Rate of a wave whose phase advances by `phase` pi / WAVES per site along each axis. */
-static double rate_of_wave(const Sites *sites, const int phase[3])
+static double rate_of_wave(const SurfaceSites *sites, const int phase[3])
 {
     double sum = 0, m[3][3] = {{0}};
     for (int n = 0; n < sites->count; n++) {
@@ -241,7 +241,7 @@ static double rate_of_wave(const Sites *sites, const int phase[3])
     return sites->along ? greatest_eigenvalue(m) : sum;
 }
 
-static double greatest_rate(const Sites *sites, int axes)
+static double greatest_rate(const SurfaceSites *sites, int axes)
 {
     double greatest = 0;
     for (int i = 0; i <= WAVES; i++)
@@ -256,7 +256,7 @@ double friction_rate(const Lattice *lattice, double spacing, Friction friction, 
 {
     double greatest = 0;
     for (int axes = summed ? 1 : lattice->dimensions; axes <= lattice->dimensions; axes++) {
-        Sites sites;
+        SurfaceSites sites;
         const double density = sites_fill(&sites, lattice, spacing, friction, axes, support_radius, summed);
         greatest =
             fmax(greatest, greatest_rate(&sites, axes) / (lattice->number_density * density * density));

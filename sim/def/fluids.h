@@ -2,7 +2,7 @@
 #ifndef SIM_DEF_FLUIDS_H
 #define SIM_DEF_FLUIDS_H
 
-#include "sim/box/walls.h"
+#include "sim/box/box.h"
 #include "sim/kernel/kernel.h"
 #include "slosh/def.h"
 
@@ -115,11 +115,12 @@ typedef enum Friction { FRICTION_LAPLACIAN, FRICTION_MORRIS, FRICTION_RADIAL, FR
 double friction_rate(const Lattice *lattice, double spacing, Friction friction, double support_radius,
                      const Kernel *summed);
 
-/* Rate of friction (sim/def/fluids.h) for a def's method, kernel, support and dimensions, 1/m2. */
+/* Rate of friction for a def's method, kernel, support and dimensions, 1/m2. */
 typedef struct StepFriction {
     double laminar, artificial; /* artificial: 0 if not in the def */
     double alpha;               /* of the artificial viscosity */
-    double numerical;           /* alpha of the least viscosity between pairs of fluid */
+    double numerical;           /* the least viscosity between pairs of fluid, m2/s */
+    const char *numerical_key;  /* the key that gives it */
     DragWeight walls;           /* weights of the friction at no-slip walls */
 } StepFriction;
 

@@ -1,4 +1,4 @@
-#include "sim/flow/finger.h"
+#include "sim/flow/flow.h"
 
 #include "sim/base/key_rows.h"
 #include "slosh/world.h"
@@ -164,30 +164,30 @@ static const double AROUND = 0.5, ASIDE = 0.4;
 static const double WALL = 1, SOLID = 0.75;
 
 /* Particles by cell, of side COVER spacings at least. */
-typedef struct Bins {
+typedef struct PourBins {
     const WorldDef *def;
     const Periodic *periodic;
     const float *position;
     double low[3], inverse[3]; /* m, 1/m */
     long size[3];
     size_t *begin;
-    uint32_t *who;
+    uint32_t *particle;
     BoxState pose[SOLIDS_MAX]; /* of the solids */
-} Bins;
+} PourBins;
 
-static long cell_along(const Bins *bins, int k, double x)
+static long cell_along(const PourBins *bins, int k, double x)
 {
     const long cell = (long)floor((x - bins->low[k]) * bins->inverse[k]);
     return cell < 0 ? 0 : cell < bins->size[k] ? cell : bins->size[k] - 1;
 }
 
-static size_t cell_of(const Bins *bins, const float x[3])
+static size_t cell_of(const PourBins *bins, const float x[3])
 {
     return (size_t)((cell_along(bins, 2, x[2]) * bins->size[1] + cell_along(bins, 1, x[1])) * bins->size[0] +
                     cell_along(bins, 0, x[0]));
 }
 
-static void bins_shape(Bins *bins, size_t count)
+static void bins_shape(PourBins *bins, size_t count)
 {
     const WorldDef *def = bins->def;
     for (int k = 0; k < 3; k++) {
@@ -206,13 +206,13 @@ static void bins_shape(Bins *bins, size_t count)
     }
 }
 
-static bool bins_create(Bins *bins, size_t count, const uint8_t *fluid, const bool take[FLUIDS_MAX])
+static bool bins_create(PourBins *bins, size_t count, const uint8_t *fluid, const bool take[FLUIDS_MAX])
 {
     bins_shape(bins, count);
     const size_t cells = (size_t)(bins->size[0] * bins->size[1] * bins->size[2]);
     bins->begin = calloc(cells + 2, sizeof *bins->begin);
-    bins->who = malloc((count + 1) * sizeof *bins->who);
-    if (!bins->begin || !bins->who)
+    bins->particle = malloc((count + 1) * sizeof *bins->particle);
+    if (!bins->begin || !bins->particle)
         return false;
     for (size_t i = 0; i < count; i++)
         if (take[fluid[i]])
@@ -221,12 +221,12 @@ static bool bins_create(Bins *bins, size_t count, const uint8_t *fluid, const bo
         bins->begin[c] += bins->begin[c - 1];
     for (size_t i = 0; i < count; i++)
         if (take[fluid[i]])
-            bins->who[bins->begin[cell_of(bins, bins->position + 3 * i) + 1]++] = (uint32_t)i;
+            bins->particle[bins->begin[cell_of(bins, bins->position + 3 * i) + 1]++] = (uint32_t)i;
     return true;
 }
 
 /* Cells next to `cell` along an axis, including `cell`; returns their number. */
-static int cells_near(const Bins *bins, int k, long cell, long near[3])
+static int cells_near(const PourBins *bins, int k, long cell, long near[3])
 {
     const long size = bins->size[k];
     int count = 0;
@@ -239,14 +239,14 @@ static int cells_near(const Bins *bins, int k, long cell, long near[3])
 }
 
 /* Neighbours behind the faces of a particle. */
-typedef struct Cover {
+typedef struct SurfaceCover {
     unsigned straight;  /* faces with a neighbour straight behind */
     int around[6];      /* number of neighbours roughly behind each face */
     double aside[6][3]; /* sums of their directions across the face's normal */
-} Cover;
+} SurfaceCover;
 
 /* Add a neighbour at `way`, r m away. */
-static void cover(Cover *to, const float way[3], double r)
+static void cover(SurfaceCover *to, const float way[3], double r)
 {
     for (int k = 0; k < 3; k++) {
         const int bit = 2 * k + (way[k] > 0);
@@ -260,7 +260,7 @@ static void cover(Cover *to, const float way[3], double r)
     }
 }
 
-static bool covers_together(const Cover *from, int bit)
+static bool covers_together(const SurfaceCover *from, int bit)
 {
     const double *aside = from->aside[bit], most = ASIDE * from->around[bit];
     return from->around[bit] > 1 &&
@@ -268,12 +268,12 @@ static bool covers_together(const Cover *from, int bit)
 }
 
 /* Add the touches of particle i in a cell; NULL only adds to `faces` and counts. */
-static size_t touch_cell(const Bins *bins, size_t i, size_t cell, Touch *to, Cover *faces)
+static size_t touch_cell(const PourBins *bins, size_t i, size_t cell, Touch *to, SurfaceCover *faces)
 {
     const double spacing = bins->def->spacing;
     size_t found = 0;
     for (size_t k = bins->begin[cell]; k < bins->begin[cell + 1]; k++) {
-        const size_t j = bins->who[k];
+        const size_t j = bins->particle[k];
         Touch touch = {.other = (uint32_t)j};
         for (size_t a = 0; a < 3; a++)
             touch.way[a] = bins->position[3 * j + a] - bins->position[3 * i + a];
@@ -293,7 +293,7 @@ static size_t touch_cell(const Bins *bins, size_t i, size_t cell, Touch *to, Cov
     return found;
 }
 
-static size_t touch_all(const Bins *bins, size_t i, Touch *to, Cover *faces)
+static size_t touch_all(const PourBins *bins, size_t i, Touch *to, SurfaceCover *faces)
 {
     long near[3][3];
     int count[3];
@@ -325,7 +325,7 @@ static bool wall_closes(const WorldDef *def, int bit, const float x[3])
 }
 
 /* The rest of the way to a solid's surface from half a spacing towards the solid. */
-static void gap_at(const Bins *bins, int s, const float x[3], float gap[3])
+static void gap_at(const PourBins *bins, int s, const float x[3], float gap[3])
 {
     const WorldDef *def = bins->def;
     double d[3], normal[3];
@@ -340,7 +340,7 @@ static void gap_at(const Bins *bins, int s, const float x[3], float gap[3])
 }
 
 /* The solid behind the face; -1: no solid closes the face. */
-static int solid_closes(const Bins *bins, int bit, const float x[3])
+static int solid_closes(const PourBins *bins, int bit, const float x[3])
 {
     const WorldDef *def = bins->def;
     double normal[3];
@@ -356,7 +356,7 @@ static int solid_closes(const Bins *bins, int bit, const float x[3])
     return -1;
 }
 
-static void see_faces(const Bins *bins, size_t i, const Cover *covers, const Touches *touches)
+static void see_faces(const PourBins *bins, size_t i, const SurfaceCover *covers, const Touches *touches)
 {
     const float *x = bins->position + 3 * i;
     for (int bit = 0; bit < 2 * bins->def->dimensions; bit++) {
@@ -372,7 +372,7 @@ static void see_faces(const Bins *bins, size_t i, const Cover *covers, const Tou
     }
 }
 
-static bool touches_find(Touches *touches, const Bins *bins, const uint8_t *fluid,
+static bool touches_find(Touches *touches, const PourBins *bins, const uint8_t *fluid,
                          const bool take[FLUIDS_MAX])
 {
     const size_t count = touches->count;
@@ -385,7 +385,7 @@ static bool touches_find(Touches *touches, const Bins *bins, const uint8_t *flui
         return false;
     touches->begin[0] = 0;
     for (size_t i = 0; i < count; i++) {
-        Cover covers = {0};
+        SurfaceCover covers = {0};
         const bool takes = take[fluid[i]];
         touches->begin[i + 1] = touches->begin[i] + (takes ? touch_all(bins, i, NULL, &covers) : 0);
         if (takes)
@@ -393,7 +393,7 @@ static bool touches_find(Touches *touches, const Bins *bins, const uint8_t *flui
     }
     touches->at = malloc((touches->begin[count] + 1) * sizeof *touches->at);
     for (size_t i = 0; touches->at && i < count; i++) {
-        Cover covers = {0};
+        SurfaceCover covers = {0};
         if (take[fluid[i]])
             touch_all(bins, i, touches->at + touches->begin[i], &covers);
     }
@@ -403,13 +403,13 @@ static bool touches_find(Touches *touches, const Bins *bins, const uint8_t *flui
 bool touches_create(Touches *touches, const WorldDef *def, const Periodic *periodic, size_t count,
                     const float *position, const uint8_t *fluid, const bool take[FLUIDS_MAX])
 {
-    Bins bins = {.def = def, .periodic = periodic, .position = position};
+    PourBins bins = {.def = def, .periodic = periodic, .position = position};
     *touches = (Touches){.count = count};
     for (int k = 0; k < def->solid_count; k++)
         solid_pose(&def->solids[k], 0, &bins.pose[k]);
     const bool ok = bins_create(&bins, count, fluid, take) && touches_find(touches, &bins, fluid, take);
     free(bins.begin);
-    free(bins.who);
+    free(bins.particle);
     return ok;
 }
 

@@ -188,24 +188,24 @@ int gate_find(const char *name)
     return -1;
 }
 
-uint64_t flow_shut(const WorldDef *def)
+uint64_t flow_closed_gates(const WorldDef *def)
 {
-    uint64_t shut = 0;
+    uint64_t closed = 0;
     for (int f = 0; f < def->fluid_count; f++)
         for (int i = 0; i < def->fluids[f].emit_count; i++)
-            shut |= (uint64_t)def->fluids[f].emits[i].shut << gate_of_emitter(f, i);
+            closed |= (uint64_t)def->fluids[f].emits[i].closed << gate_of_emitter(f, i);
     for (int k = 0; k < def->drain_count; k++)
-        shut |= (uint64_t)def->drains[k].shut << gate_of_drain(k);
-    return shut;
+        closed |= (uint64_t)def->drains[k].closed << gate_of_drain(k);
+    return closed;
 }
 
-int flow_guides(const WorldDef *def, double time, uint64_t shut, Guide guides[EMITTERS_MAX])
+int flow_guides(const WorldDef *def, double time, uint64_t closed, Guide guides[EMITTERS_MAX])
 {
     int count = 0;
     for (int f = 0; f < def->fluid_count; f++)
         for (int i = 0; i < def->fluids[f].emit_count; i++) {
             const Emit *emit = &def->fluids[f].emits[i];
-            if (!gate_shut(shut, gate_of_emitter(f, i)) && time >= emit->start &&
+            if (!gate_is_closed(closed, gate_of_emitter(f, i)) && time >= emit->start &&
                 (emit->duration == 0 || time < emit->start + emit->duration))
                 guides[count++] = flow_guide(def, f, emit);
         }

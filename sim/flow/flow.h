@@ -1,11 +1,14 @@
-/* Inflow and outflow: emitters send out a lattice layer by layer; drains remove fluid. */
+/* Inflow, outflow and touch: emitters and drains, the finger in the fluid, and the graph of touching
+   particles. */
 #ifndef SIM_FLOW_FLOW_H
 #define SIM_FLOW_FLOW_H
 
-#include "sim/box/walls.h"
+#include "sim/box/box.h"
 #include "slosh/def.h"
 #include "slosh/error.h"
 #include "slosh/world.h"
+
+/* Inflow and outflow: emitters send out a lattice layer by layer; drains remove fluid. */
 
 /* One layer that enters a world. */
 typedef struct EmitLayer {
@@ -51,22 +54,22 @@ static inline int gate_of_drain(int drain)
 {
     return EMITTERS_MAX + drain;
 }
-static inline bool gate_shut(uint64_t shut, int gate)
+static inline bool gate_is_closed(uint64_t closed, int gate)
 {
-    return shut >> gate & 1;
+    return closed >> gate & 1;
 }
 /* Writes the name of a gate; the gate must be one of 0 .. GATES_MAX - 1. */
 void gate_name(int gate, char name[GATE_NAME_SIZE]);
 int gate_find(const char *name);
 
 /* Mask of the gates shut at the start. */
-uint64_t flow_shut(const WorldDef *def);
+uint64_t flow_closed_gates(const WorldDef *def);
 
 /* Guide of an emitter of that fluid. */
 Guide flow_guide(const WorldDef *def, int fluid, const Emit *emit);
 
 /* Guides of the emitters that are active at `time` (s) and not shut; returns the number of guides. */
-int flow_guides(const WorldDef *def, double time, uint64_t shut, Guide guides[EMITTERS_MAX]);
+int flow_guides(const WorldDef *def, double time, uint64_t closed, Guide guides[EMITTERS_MAX]);
 
 /* True if the guide holds a particle of that fluid at x (m). */
 static inline bool guide_holds(const Guide *guide, const Periodic *periodic, int fluid, const float x[3])
@@ -90,5 +93,65 @@ size_t flow_capacity(const WorldDef *def, size_t initial);
 
 /* Returns false with the reason if emitters or drains are out of range. */
 bool flow_check(const WorldDef *def, Error *error);
+
+/* A user's touch: effect, size and strength at the pointer. The scene's keys `touch.*`. */
+
+typedef struct TouchWay {
+    const char *name, *help;
+} TouchWay;
+
+/* Indexed by FingerWay - 1; ended by a NULL name. */
+extern const TouchWay touch_ways[];
+
+typedef struct TouchDef {
+    int way;         /* of touch_ways */
+    int fluid;       /* for pouring */
+    double radius;   /* spacings */
+    double strength; /* 1: default */
+} TouchDef;
+
+TouchDef touch_def_default(void);
+
+/* Radius, m: of the ball, or of the disk for pouring. */
+double touch_radius(const TouchDef *def, FingerWay way, double spacing);
+
+/* A finger of the def at a position (box's frame, m) in a scene with the given spacing (m). */
+Finger touch_finger(const TouchDef *def, FingerWay way, const double at[3], double spacing);
+
+/* "none" or a name of touch_ways; pouring has the same name for each fluid. finger_way_find returns
+   FINGER_WAYS for an unknown name. */
+const char *finger_way_name(FingerWay way);
+FingerWay finger_way_find(const char *name);
+
+/* Touching particles of a start, and faces without a neighbour. Particles are volumes of spacing^dimensions;
+   a face is shared with a neighbour, closed by a wall or a solid, or open. The graph's Laplacian is the
+   continuum's on a lattice, and exact for linear fields on disordered points too. */
+
+typedef struct Touch {
+    uint32_t other; /* the neighbour */
+    float way[3];   /* to the neighbour, m */
+    float weight;   /* 1 / way^2 */
+} Touch;
+
+/* Bit 2 k + 1 of `open` is the face towards the greater coordinate along axis k, bit 2 k the opposite
+   face. */
+typedef struct Touches {
+    size_t count;
+    size_t *begin; /* count + 1: touches of particle i are at[begin[i]] to before at[begin[i + 1]] */
+    Touch *at;     /* each pair twice */
+    uint8_t *open;
+    uint8_t *solid; /* the same bits for faces closed by a solid; NULL without solids */
+    float *gap;     /* 3 per particle with such a face: way to the solid's surface less half a spacing, m;
+                       else 0 */
+} Touches;
+
+/* Finds the touches of particles at `position` (3 each, m) of a new world with that def. Particles of fluids
+   not in `take` touch nothing. Returns false if memory is short; call touches_destroy then too. */
+bool touches_create(Touches *touches, const WorldDef *def, const Periodic *periodic, size_t count,
+                    const float *position, const uint8_t *fluid, const bool take[FLUIDS_MAX]);
+void touches_destroy(Touches *touches); /* a zeroed Touches is allowed */
+
+/* Outward normal of the face of a bit. */
+void touch_normal(int bit, double normal[3]);
 
 #endif

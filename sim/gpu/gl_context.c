@@ -1,5 +1,4 @@
-#include "sim/gpu/gl_context.h"
-
+#include "sim/gpu/gl.h"
 #include "sim/step/backend.h"
 
 #include <epoxy/gl.h>
@@ -11,31 +10,32 @@
 
 /* The driver calls back from its threads. */
 static atomic_int error_count;
-static atomic_bool asks_for_memory;
 static int forgotten; /* errors before the last gl_debug_install */
 
 enum { MESSAGES = 8 }; /* printed messages; each picture mostly repeats the same kind */
 
+static void count_message(const char *message)
+{
+    if (atomic_fetch_add(&error_count, 1) < MESSAGES)
+        fprintf(stderr, "GL error: %s\n", message);
+}
+
+/* Lack of memory is counted by the code of glGetError: the maker of a buffer takes the code. */
 static void on_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
                        const GLchar *message, const void *user)
 {
     (void)id, (void)severity, (void)length, (void)user;
     /* program_create reports messages of the shader compiler */
-    if (type != GL_DEBUG_TYPE_ERROR || source == GL_DEBUG_SOURCE_SHADER_COMPILER)
-        return;
-    if (atomic_load(&asks_for_memory) && strstr(message, "OUT_OF_MEMORY"))
-        return;
-    if (atomic_fetch_add(&error_count, 1) < MESSAGES)
-        fprintf(stderr, "GL error: %s\n", message);
+    if (type == GL_DEBUG_TYPE_ERROR && source != GL_DEBUG_SOURCE_SHADER_COMPILER &&
+        !strstr(message, "OUT_OF_MEMORY"))
+        count_message(message);
 }
 
-/* Raises the count to at least `codes`, for drivers without messages. Returns the new count. */
-static int count_at_least(int codes)
+/* Raises the count to at least `codes`, for drivers without messages. */
+static void count_at_least(int codes)
 {
-    const int messages = atomic_load(&error_count);
-    if (codes > messages)
+    if (codes > atomic_load(&error_count))
         atomic_store(&error_count, codes);
-    return codes > messages ? codes : messages;
 }
 
 int gl_errors_take(unsigned code)
@@ -59,18 +59,16 @@ void gl_debug_install(void)
     gl_errors_take(0);
     forgotten += atomic_exchange(&error_count, 0);
     glEnable(GL_DEBUG_OUTPUT);
-    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, NULL, GL_FALSE);
+    glDebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_ERROR, GL_DONT_CARE, 0, NULL, GL_TRUE);
     glDebugMessageCallback(on_message, NULL);
-}
-
-void gl_debug_asks_for_memory(bool asks)
-{
-    atomic_store(&asks_for_memory, asks);
 }
 
 int gl_debug_errors(void)
 {
-    return count_at_least(gl_errors_take(0));
+    if (gl_errors_take(GL_OUT_OF_MEMORY) > 0)
+        count_message("the GPU has no memory for what was asked");
+    return atomic_load(&error_count);
 }
 
 int gl_debug_total(void)

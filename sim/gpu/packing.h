@@ -18,19 +18,19 @@ typedef struct PackedColumn {
 } PackedColumn;
 
 /* A backend's table, without the method's columns. Columns missing in a method stay 0. */
-typedef struct Packing {
+typedef struct ColumnPacking {
     int words[PACKED_BUFFERS + 1];           /* words per entry of each buffer, by number */
     PackedColumn column[PACKED_COLUMNS + 1]; /* ended by a buffer 0 */
-} Packing;
+} ColumnPacking;
 
 /* Columns of the method that a table has. */
-ColumnRows packing_rows(const Packing *packing, const struct Method *method);
+ColumnRows packing_rows(const ColumnPacking *packing, const struct Method *method);
 
 /* Packs columns into a buffer's entries, or unpacks: particle i is entry i, or place[i]. NULL columns are
    skipped. */
-void packing_pack(const Packing *packing, int buffer, const struct Method *method,
+void packing_pack(const ColumnPacking *packing, int buffer, const struct Method *method,
                   const ParticleColumns *from, size_t count, const ParticleId *place, uint32_t *entries);
-void packing_unpack(const Packing *packing, int buffer, const struct Method *method, const uint32_t *entries,
-                    size_t count, const ParticleColumns *to);
+void packing_unpack(const ColumnPacking *packing, int buffer, const struct Method *method,
+                    const uint32_t *entries, size_t count, const ParticleColumns *to);
 
 #endif

@@ -1,6 +1,6 @@
 #include "sim/gpu/particle_buffers.h"
 
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 #include "sim/gpu/packing.h"
 #include "sim/step/method.h"
 #include "sim/step/world.h"
@@ -17,11 +17,9 @@ bool mailbox_create(Mailbox *mailbox, const char *label, size_t bytes)
     glObjectLabel(GL_BUFFER, mailbox->buffer, -1, label);
     glCreateBuffers(1, &mailbox->copy);
     glObjectLabel(GL_BUFFER, mailbox->copy, -1, label);
-    gl_debug_asks_for_memory(true);
     glNamedBufferStorage(mailbox->buffer, size, NULL, GL_DYNAMIC_STORAGE_BIT);
     glNamedBufferStorage(mailbox->copy, size, NULL, access | GL_CLIENT_STORAGE_BIT);
     const bool none = gl_errors_take(GL_OUT_OF_MEMORY) > 0;
-    gl_debug_asks_for_memory(false);
     if (!none) {
         glClearNamedBufferData(mailbox->buffer, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
         mailbox->mapped = glMapNamedBufferRange(mailbox->copy, 0, size, access);
@@ -109,7 +107,7 @@ bool world_births(const World *world, Births *to)
     return births_copy(&world->births, to);
 }
 
-static const PackedColumn *packed(const Packing *packing, const ColumnDef *column)
+static const PackedColumn *packed(const ColumnPacking *packing, const ColumnDef *column)
 {
     const PackedColumn *row = packing->column;
     while (row->buffer > 0 && row->at != column->at)
@@ -117,7 +115,7 @@ static const PackedColumn *packed(const Packing *packing, const ColumnDef *colum
     return row->buffer > 0 ? row : NULL;
 }
 
-ColumnRows packing_rows(const Packing *packing, const Method *method)
+ColumnRows packing_rows(const ColumnPacking *packing, const Method *method)
 {
     const ColumnRows all = column_rows(method->columns, 0, NULL);
     ColumnRows rows = {0};
@@ -167,7 +165,7 @@ typedef struct PackedPart {
 } PackedPart;
 
 /* Lists the components of present columns in `buffer`; returns their number. */
-static int parts_of(const Packing *packing, int buffer, const Method *method, ParticleColumns columns,
+static int parts_of(const ColumnPacking *packing, int buffer, const Method *method, ParticleColumns columns,
                     PackedPart parts[PACKED_WORDS])
 {
     const ColumnRows rows = packing_rows(packing, method);
@@ -183,7 +181,7 @@ static int parts_of(const Packing *packing, int buffer, const Method *method, Pa
     return count;
 }
 
-void packing_pack(const Packing *packing, int buffer, const Method *method, const ParticleColumns *from,
+void packing_pack(const ColumnPacking *packing, int buffer, const Method *method, const ParticleColumns *from,
                   size_t count, const ParticleId *place, uint32_t *entries)
 {
     PackedPart part[PACKED_WORDS];
@@ -194,7 +192,7 @@ void packing_pack(const Packing *packing, int buffer, const Method *method, cons
                 word_of(part[n].array, part[n].type, part[n].packed->type, i);
 }
 
-void packing_unpack(const Packing *packing, int buffer, const Method *method, const uint32_t *entries,
+void packing_unpack(const ColumnPacking *packing, int buffer, const Method *method, const uint32_t *entries,
                     size_t count, const ParticleColumns *to)
 {
     PackedPart part[PACKED_WORDS];

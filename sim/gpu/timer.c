@@ -1,4 +1,4 @@
-#include "sim/gpu/timer.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <stdlib.h>
@@ -26,7 +26,8 @@ struct GlTimer {
 bool gl_renderer_is_software(void)
 {
     const char *name = (const char *)glGetString(GL_RENDERER);
-    return name && (strstr(name, "llvmpipe") || strstr(name, "softpipe") || strstr(name, "swrast"));
+    return name && (strstr(name, "llvmpipe") || strstr(name, "softpipe") || strstr(name, "swrast") ||
+                    strstr(name, "Microsoft Basic Render"));
 }
 
 GlTimer *gl_timer_create(GlClock clock)

@@ -9,13 +9,14 @@ double kernel_poly6(double r, double h)
     return q < 1 ? 315 / (64 * M_PI * h * h * h) * t * t * t : 0;
 }
 
-double kernel_poly6_derivative(double r, double h)
+static double poly6_derivative(double r, double h)
 {
     const double q = r / h, t = 1 - q * q;
     return q < 1 ? -945 / (32 * M_PI * h * h * h * h) * q * t * t : 0;
 }
 
-double kernel_spiky(double r, double h)
+/* Eq. 21 of Müller 2003. */
+static double spiky(double r, double h)
 {
     const double t = 1 - r / h;
     return t > 0 ? 15 / (M_PI * h * h * h) * t * t * t : 0;
@@ -27,37 +28,33 @@ double kernel_spiky_derivative(double r, double h)
     return t > 0 ? -45 / (M_PI * h * h * h * h) * t * t : 0;
 }
 
-double kernel_viscosity(double r, double h)
-{
-    const double q = r / h;
-    return q < 1 ? 15 / (2 * M_PI * h * h * h) * (q * q * (1 - 0.5 * q) + 0.5 / q - 1) : 0;
-}
-
 double kernel_viscosity_laplacian(double r, double h)
 {
     const double t = 1 - r / h;
     return t > 0 ? 45 / (M_PI * h * h * h * h * h) * t : 0;
 }
 
-double kernel_cubic(double r, double h)
+/* Cubic spline: Monaghan and Lattanzio 1985. */
+static double cubic(double r, double h)
 {
     const double q = r / h, t = 1 - q, scale = 8 / (M_PI * h * h * h);
     return q < 0.5 ? scale * (1 - 6 * q * q * t) : q < 1 ? scale * 2 * t * t * t : 0;
 }
 
-double kernel_cubic_derivative(double r, double h)
+static double cubic_derivative(double r, double h)
 {
     const double q = r / h, t = 1 - q, scale = 8 / (M_PI * h * h * h * h);
     return q < 0.5 ? scale * (18 * q * q - 12 * q) : q < 1 ? -scale * 6 * t * t : 0;
 }
 
-double kernel_wendland_c2(double r, double h)
+/* Wendland 1995; Dehnen and Aly 2012. */
+static double wendland_c2(double r, double h)
 {
     const double q = r / h, t = 1 - q;
     return q < 1 ? 21 / (2 * M_PI * h * h * h) * t * t * t * t * (1 + 4 * q) : 0;
 }
 
-double kernel_wendland_c2_derivative(double r, double h)
+static double wendland_c2_derivative(double r, double h)
 {
     const double q = r / h, t = 1 - q;
     return q < 1 ? -21 / (2 * M_PI * h * h * h * h) * 20 * q * t * t * t : 0;
@@ -70,30 +67,31 @@ static double quintic_terms(double q, double power)
     return (a > 0 ? pow(a, power) : 0) - (b > 0 ? 6 * pow(b, power) : 0) + (c > 0 ? 15 * pow(c, power) : 0);
 }
 
-double kernel_quintic(double r, double h)
+/* Quintic spline: Morris 1996. */
+static double quintic(double r, double h)
 {
     return 27 / (120 * M_PI * h * h * h) * quintic_terms(r / h, 5);
 }
 
-double kernel_quintic_derivative(double r, double h)
+static double quintic_derivative(double r, double h)
 {
     return -27 * 15 / (120 * M_PI * h * h * h * h) * quintic_terms(r / h, 4);
 }
 
 const Kernel shape_kernels[] = {
-    [KERNEL_CUBIC] = {"cubic", "cubic spline", kernel_cubic, kernel_cubic_derivative},
-    [KERNEL_WENDLAND_C2] = {"wendland_c2", "Wendland C2: no pairing, wants support 3", kernel_wendland_c2,
-                            kernel_wendland_c2_derivative},
-    [KERNEL_QUINTIC] = {"quintic", "quintic spline: smoothest, wants support 3", kernel_quintic,
-                        kernel_quintic_derivative},
+    [KERNEL_CUBIC] = {"cubic", "cubic spline", cubic, cubic_derivative},
+    [KERNEL_WENDLAND_C2] = {"wendland_c2", "Wendland C2: no pairing, wants support 3", wendland_c2,
+                            wendland_c2_derivative},
+    [KERNEL_QUINTIC] = {"quintic", "quintic spline: smoothest, wants support 3", quintic, quintic_derivative},
     [SHAPE_KERNELS] = {0},
 };
 
 const Kernel density_kernels[] = {
-    {"spiky", "the kernel of the pressure force too: energy is conserved", kernel_spiky,
-     kernel_spiky_derivative},
+    {"spiky", "the kernel of the pressure force too: energy is conserved", spiky, kernel_spiky_derivative},
     {"poly6", "as in Müller 2003: pumps energy into the fluid, needs viscosity", kernel_poly6,
-     kernel_poly6_derivative},
+     poly6_derivative},
+    {"quintic", "quintic spline, of pressure too: a lattice hardly resists shear at support 3", quintic,
+     quintic_derivative},
     {0},
 };
 
@@ -151,19 +149,19 @@ static const double PI = 3.14159265358979323846;
 enum { REACH = 4, SITES_MAX = (2 * REACH + 1) * (2 * REACH + 1) * (2 * REACH + 1) / 2, WAVES = 12 };
 
 /* Half of the neighbours: opposite neighbours have the same part in a wave. */
-typedef struct Sites {
+typedef struct LatticeSites {
     int dimensions, count;
     double x[SITES_MAX][3];                   /* spacings */
     double dense[SITES_MAX], push[SITES_MAX]; /* parts of D and P per length, 1/m2 */
-} Sites;
+} LatticeSites;
 
 static bool is_first_of_two(int i, int j, int k)
 {
     return i > 0 || (i == 0 && (j > 0 || (j == 0 && k > 0)));
 }
 
-static void fill(Sites *sites, const Lattice *lattice, double spacing, double h, const Kernel *density_kernel,
-                 bool carried)
+static void fill(LatticeSites *sites, const Lattice *lattice, double spacing, double h,
+                 const Kernel *density_kernel, bool carried)
 {
     const Kernel *slope = lattice->pressure_kernel;
     const int reach = (int)fmin(ceil(h / spacing), REACH), deep = lattice->dimensions == 3 ? reach : 0;
@@ -187,7 +185,7 @@ static void fill(Sites *sites, const Lattice *lattice, double spacing, double h,
 }
 
 /* (omega / c)^2 of the wave with `phase` per spacing along each axis. */
-static double stiffness(const Sites *sites, const double phase[3])
+static double stiffness(const LatticeSites *sites, const double phase[3])
 {
     double d[3] = {0}, p[3] = {0};
     for (int n = 0; n < sites->count; n++) {
@@ -203,13 +201,13 @@ static double stiffness(const Sites *sites, const double phase[3])
 double sound_wave(const Lattice *lattice, double spacing, double support_radius, const Kernel *density_kernel,
                   bool carried, const double k[3])
 {
-    Sites sites;
+    LatticeSites sites;
     fill(&sites, lattice, spacing, support_radius, density_kernel, carried);
     return sqrt(fmax(0, stiffness(&sites, (double[3]){k[0] * spacing, k[1] * spacing, k[2] * spacing})));
 }
 
 /* Steps by `way` along the axes to better values until no step improves. */
-static double climb(const Sites *sites, double phase[3], double way, double greatest)
+static double climb(const LatticeSites *sites, double phase[3], double way, double greatest)
 {
     for (int a = 0; a < 2 * sites->dimensions; a++) {
         double next[3] = {phase[0], phase[1], phase[2]};
@@ -227,7 +225,7 @@ static double climb(const Sites *sites, double phase[3], double way, double grea
 double sound_stiffest(const Lattice *lattice, double spacing, double support_radius,
                       const Kernel *density_kernel, bool carried)
 {
-    Sites sites;
+    LatticeSites sites;
     double greatest = 0, best[3] = {0};
     fill(&sites, lattice, spacing, support_radius, density_kernel, carried);
     for (int i = 0; i <= WAVES; i++) /* a corner of the zone; the rest are mirror images */

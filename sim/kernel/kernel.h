@@ -6,20 +6,8 @@
 #include <stdbool.h>
 
 double kernel_poly6(double r, double h);               /* eq. 20 */
-double kernel_poly6_derivative(double r, double h);    /* dW/dr <= 0, 1/m4 */
-double kernel_spiky(double r, double h);               /* eq. 21 */
 double kernel_spiky_derivative(double r, double h);    /* dW/dr <= 0, 1/m4 */
-double kernel_viscosity(double r, double h);           /* eq. 22; infinite at r = 0 */
 double kernel_viscosity_laplacian(double r, double h); /* >= 0, 1/m5 */
-
-/* Kernel shapes of solver.kernel, with q = r / h and the whole support radius h (papers use h / 2 or h /
-   3). */
-double kernel_cubic(double r, double h); /* cubic spline: Monaghan and Lattanzio 1985 */
-double kernel_cubic_derivative(double r, double h);
-double kernel_wendland_c2(double r, double h); /* Wendland 1995; Dehnen and Aly 2012 */
-double kernel_wendland_c2_derivative(double r, double h);
-double kernel_quintic(double r, double h); /* quintic spline: Morris 1996 */
-double kernel_quintic_derivative(double r, double h);
 
 /* A kernel that can sum up density. */
 typedef struct Kernel {
@@ -28,9 +16,10 @@ typedef struct Kernel {
     double (*derivative)(double r, double h);
 } Kernel;
 
-extern const Kernel density_kernels[]; /* ended by a NULL name */
+extern const Kernel density_kernels[]; /* spiky and poly6, ended by a NULL name */
 
-/* The kernels of solver.kernel, in the order of ShapeKernel. */
+/* The kernels of solver.kernel, in the order of ShapeKernel, with q = r / h and the whole support radius h
+   (papers use h / 2 or h / 3). */
 extern const Kernel shape_kernels[]; /* ended by a NULL name */
 typedef enum ShapeKernel { KERNEL_CUBIC, KERNEL_WENDLAND_C2, KERNEL_QUINTIC, SHAPE_KERNELS } ShapeKernel;
 
@@ -76,8 +65,8 @@ void lattice_calibrate(int dimensions, double spacing, double support_radius, co
 
    A leapfrog or Verlet step, with a single evaluation of each force, is stable up to 2 / omega. */
 
-/* omega / c of the wave with vector k, 1/m, along the axes of a calibrated lattice; 0 without a force.
-   `carried`: density follows the continuity equation, with the pressure kernel; otherwise density is
+/* For tests: omega / c of the wave with vector k, 1/m, along the axes of a calibrated lattice; 0 without a
+   force. `carried`: density follows the continuity equation, with the pressure kernel; otherwise density is
    summed. */
 double sound_wave(const Lattice *lattice, double spacing, double support_radius, const Kernel *density_kernel,
                   bool carried, const double k[3]);

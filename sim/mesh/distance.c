@@ -1,177 +1,9 @@
-#include "sim/mesh/distance.h"
-
-#include "sim/base/parallel.h"
-#include "sim/mesh/triangles.h"
+#include "sim/base/base.h"
+#include "sim/mesh/mesh_shape.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static void ends_of(const Triangles *triangles, size_t side, uint32_t *from, uint32_t *to)
-{
-    *from = triangles->triangle[side / 3][side % 3];
-    *to = triangles->triangle[side / 3][(side + 1) % 3];
-}
-
-bool side_forward(const Triangles *triangles, uint32_t side)
-{
-    uint32_t from, to;
-    ends_of(triangles, side, &from, &to);
-    return from < to;
-}
-
-static int ascending(const void *a, const void *b)
-{
-    const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
-    return (x > y) - (x < y);
-}
-
-/* Sorts the sides by the lesser vertex, then by the greater. `key`: greater vertex << 32 | side. `begin`: on
-   return, the end of each vertex's sides in `key`. */
-static void sort_sides(const Triangles *triangles, size_t *begin, uint64_t *key)
-{
-    const size_t sides = 3 * triangles->triangle_count;
-    uint32_t from, to;
-    for (size_t i = 0; i < sides; i++) {
-        ends_of(triangles, i, &from, &to);
-        begin[(from < to ? from : to) + 1]++;
-    }
-    for (size_t v = 0; v < triangles->vertex_count; v++)
-        begin[v + 1] += begin[v];
-    for (size_t i = 0; i < sides; i++) {
-        ends_of(triangles, i, &from, &to);
-        key[begin[from < to ? from : to]++] = (uint64_t)(from < to ? to : from) << 32 | i;
-    }
-    for (size_t v = 0, at = 0; v < triangles->vertex_count; at = begin[v++])
-        qsort(key + at, begin[v] - at, sizeof *key, ascending);
-}
-
-static void group(const Triangles *triangles, const size_t *begin, const uint64_t *key, Edges *edges)
-{
-    for (size_t v = 0, i = 0; v < triangles->vertex_count; v++)
-        for (size_t first = i; i < begin[v]; i++) {
-            if (i == first || key[i] >> 32 != key[i - 1] >> 32)
-                edges->first[edges->count++] = (uint32_t)i;
-            edges->side[i] = (uint32_t)key[i];
-        }
-    edges->first[edges->count] = (uint32_t)(3 * triangles->triangle_count);
-}
-
-bool edges_make(Edges *edges, const Triangles *triangles)
-{
-    const size_t sides = 3 * triangles->triangle_count;
-    size_t *begin = calloc(triangles->vertex_count + 2, sizeof *begin);
-    uint64_t *key = malloc((sides + 1) * sizeof *key);
-    *edges = (Edges){.first = malloc((sides + 1) * sizeof *edges->first),
-                     .side = malloc((sides + 1) * sizeof *edges->side)};
-    const bool ok = begin && key && edges->first && edges->side;
-    if (ok) {
-        sort_sides(triangles, begin, key);
-        group(triangles, begin, key, edges);
-    } else {
-        edges_free(edges);
-    }
-    free(begin);
-    free(key);
-    return ok;
-}
-
-void edges_free(Edges *edges)
-{
-    free(edges->first);
-    free(edges->side);
-    *edges = (Edges){0};
-}
-
-static const double ROUND = 2e-6; /* relative; more than the rounding error of single precision */
-
-typedef struct Place {
-    double along, off; /* along the axis; distance from the axis */
-} Place;
-
-static Place place_at(const Disc *disc, const double x[3])
-{
-    double p[3], along = 0, off2 = 0;
-    for (int k = 0; k < 3; k++) {
-        p[k] = x[k] - disc->middle[k];
-        along += p[k] * disc->axis[k];
-    }
-    for (int k = 0; k < 3; k++)
-        off2 += (p[k] - along * disc->axis[k]) * (p[k] - along * disc->axis[k]);
-    return (Place){along, sqrt(off2)};
-}
-
-static Place corner_at(const Disc *disc, const Triangles *of, const uint32_t *item, uint32_t corner)
-{
-    const float *x = of->vertex[of->triangle[item[corner / 3]][corner % 3]];
-    return place_at(disc, (double[]){x[0], x[1], x[2]});
-}
-
-static void mean_normal(const Triangles *of, const uint32_t *item, uint32_t count, float axis[3])
-{
-    double sum[3] = {0}, normal[3];
-    for (uint32_t i = 0; i < count; i++) {
-        triangle_normal(of, item[i], normal);
-        for (int k = 0; k < 3; k++)
-            sum[k] += normal[k];
-    }
-    const double length = sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
-    for (int k = 0; k < 3; k++)
-        axis[k] = length > 0 ? (float)(sum[k] / length) : 0;
-}
-
-/* Middle of the triangles' bounding box. */
-static void middle_of(const Triangles *of, const uint32_t *item, uint32_t count, float middle[3])
-{
-    for (int k = 0; k < 3; k++) {
-        float low = INFINITY, high = -INFINITY;
-        for (uint32_t i = 0; i < 3 * count; i++) {
-            const float x = of->vertex[of->triangle[item[i / 3]][i % 3]][k];
-            low = x < low ? x : low;
-            high = x > high ? x : high;
-        }
-        middle[k] = 0.5F * (low + high);
-    }
-}
-
-/* Moves the disc along the axis for the least thickness. */
-static void move_between(Disc *disc, const Triangles *of, const uint32_t *item, uint32_t count)
-{
-    double low = INFINITY, high = -INFINITY;
-    for (uint32_t i = 0; i < 3 * count; i++) {
-        const Place place = corner_at(disc, of, item, i);
-        low = fmin(low, place.along);
-        high = fmax(high, place.along);
-    }
-    for (int k = 0; k < 3; k++)
-        disc->middle[k] += (float)(0.5 * (low + high) * disc->axis[k]);
-}
-
-Disc disc_around(const Triangles *of, const uint32_t *item, uint32_t count)
-{
-    Disc disc;
-    double half = 0, radius = 0;
-    mean_normal(of, item, count, disc.axis);
-    middle_of(of, item, count, disc.middle);
-    move_between(&disc, of, item, count);
-    for (uint32_t i = 0; i < 3 * count; i++) {
-        const Place place = corner_at(&disc, of, item, i);
-        half = fmax(half, fabs(place.along));
-        radius = fmax(radius, place.off);
-    }
-    const double wider = ROUND * (half + radius);
-    disc.half = (float)(half + wider);
-    disc.radius = (float)(radius + wider);
-    return disc;
-}
-
-double disc_distance2(const Disc *disc, const double x[3])
-{
-    const Place place = place_at(disc, x);
-    const double along = fabs(place.along) - disc->half, off = place.off - disc->radius;
-    const double a = along > 0 ? along : 0, b = off > 0 ? off : 0;
-    return (1 - ROUND) * (a * a + b * b);
-}
 
 enum {
     CELLS = 64, /* along the longest side */
@@ -224,12 +56,12 @@ static void shape(DistanceGrid *grid, const Triangles *of)
 
 /* ---- distances without a sign ---- */
 
-typedef struct Work {
+typedef struct DistanceJob {
     DistanceGrid *grid;
     const TriangleTree *tree;
     const Stop *stop;
     int32_t *winding; /* change on the way to each node from the node before */
-} Work;
+} DistanceJob;
 
 static void place_of(const DistanceGrid *grid, int i, int j, int k, double x[3])
 {
@@ -238,7 +70,7 @@ static void place_of(const DistanceGrid *grid, int i, int j, int k, double x[3])
         x[a] = grid->low[a] + at[a] * grid->cell;
 }
 
-static float exact_at(const Work *work, int i, int j, int k, uint32_t *near)
+static float exact_at(const DistanceJob *work, int i, int j, int k, uint32_t *near)
 {
     double x[3];
     place_of(work->grid, i, j, k, x);
@@ -246,7 +78,7 @@ static float exact_at(const Work *work, int i, int j, int k, uint32_t *near)
 }
 
 /* Distance at a corner: exact up to ROOM cells, else up to 2 % too large. */
-static float nearly_at(const Work *work, int i, int j, int k, uint32_t *near)
+static float nearly_at(const DistanceJob *work, int i, int j, int k, uint32_t *near)
 {
     const double exact = ROOM * work->grid->cell;
     double x[3];
@@ -257,7 +89,7 @@ static float nearly_at(const Work *work, int i, int j, int k, uint32_t *near)
 
 static void coarse_range(void *context, size_t begin, size_t end)
 {
-    const Work *work = context;
+    const DistanceJob *work = context;
     DistanceGrid *grid = work->grid;
     for (size_t row = begin; row < end; row++) {
         const int rows = (grid->size[1] - 1) / COARSE + 1;
@@ -270,12 +102,12 @@ static void coarse_range(void *context, size_t begin, size_t end)
 
 /* A block between eight values of the coarse grid. Corners at the far end of each axis belong to the next
    block. */
-typedef struct Block {
+typedef struct GridBlock {
     int low[3];
     double corner[8]; /* distances */
-} Block;
+} GridBlock;
 
-static void block_at(const DistanceGrid *grid, int i, int j, int k, Block *block)
+static void block_at(const DistanceGrid *grid, int i, int j, int k, GridBlock *block)
 {
     block->low[0] = i, block->low[1] = j, block->low[2] = k;
     for (int c = 0; c < 8; c++)
@@ -292,7 +124,7 @@ static double between(const double corner[8], const double t[3])
 }
 
 /* True if the whole block is farther than 2.5 cells from the surface. */
-static bool is_far(const Work *work, const Block *block, uint32_t *near)
+static bool is_far(const DistanceJob *work, const GridBlock *block, uint32_t *near)
 {
     const int half = COARSE / 2, *low = block->low;
     const double corner = sqrt(3) * half, margin = 2.5;
@@ -300,7 +132,7 @@ static bool is_far(const Work *work, const Block *block, uint32_t *near)
            (corner + margin) * work->grid->cell;
 }
 
-static void fill_block(const Work *work, const Block *block, uint32_t *near)
+static void fill_block(const DistanceJob *work, const GridBlock *block, uint32_t *near)
 {
     DistanceGrid *grid = work->grid;
     const bool far = is_far(work, block, near);
@@ -322,9 +154,9 @@ static void fill_block(const Work *work, const Block *block, uint32_t *near)
    read. */
 static void fine_range(void *context, size_t begin, size_t end)
 {
-    const Work *work = context;
+    const DistanceJob *work = context;
     const DistanceGrid *grid = work->grid;
-    Block block;
+    GridBlock block;
     uint32_t near = 0;
     for (size_t layer = begin; layer < end; layer++)
         for (int j = 0; j + 1 < grid->size[1]; j += COARSE)
@@ -347,7 +179,7 @@ static void nodes_between(const DistanceGrid *grid, int axis, double low, double
 
 /* Records winding changes where the grid lines of layer k cross triangle t. Whole numbers: their sum is the
    same in any order. */
-static void cross_layer(const Work *work, size_t t, int k)
+static void cross_layer(const DistanceJob *work, size_t t, int k)
 {
     const DistanceGrid *grid = work->grid;
     double low, high;
@@ -368,7 +200,7 @@ static void cross_layer(const Work *work, size_t t, int k)
 
 static void cross_range(void *context, size_t first, size_t last)
 {
-    const Work *work = context;
+    const DistanceJob *work = context;
     const Triangles *of = work->tree->of;
     for (size_t t = first; t < last && !stop_wanted(work->stop); t++) {
         double low = INFINITY, high = -INFINITY;
@@ -385,7 +217,7 @@ static void cross_range(void *context, size_t first, size_t last)
 
 static void sign_range(void *context, size_t begin, size_t end)
 {
-    const Work *work = context;
+    const DistanceJob *work = context;
     const DistanceGrid *grid = work->grid;
     bool overlaps = false;
     for (size_t k = begin; k < end; k++)
@@ -483,7 +315,7 @@ bool distance_make(DistanceGrid *grid, const TriangleTree *tree, int threads, co
     *grid = (DistanceGrid){0};
     shape(grid, tree->of);
     const size_t layers = (size_t)grid->size[2], rows = (size_t)(grid->size[1] - 1) / COARSE + 1;
-    Work work = {.grid = grid, .tree = tree, .stop = stop};
+    DistanceJob work = {.grid = grid, .tree = tree, .stop = stop};
     grid->value = malloc(distance_count(grid) * sizeof *grid->value);
     work.winding = calloc(distance_count(grid), sizeof *work.winding);
     bool ok = grid->value && work.winding;
@@ -512,11 +344,11 @@ void distance_free(DistanceGrid *grid)
 
 /* A position on the grid: place t in the nearest cell (0 .. 1), corner values, and distance from the grid (0
    on the grid). */
-typedef struct Spot {
+typedef struct CellPosition {
     double t[3], corner[8], beyond;
-} Spot;
+} CellPosition;
 
-static void spot_at(const DistanceGrid *grid, const double x[3], Spot *spot)
+static void spot_at(const DistanceGrid *grid, const double x[3], CellPosition *spot)
 {
     double beyond2 = 0;
     int at[3];
@@ -544,7 +376,7 @@ static double outside(const DistanceGrid *grid, const double x[3])
     return sqrt(sum);
 }
 
-static void slope_of(const DistanceGrid *grid, const Spot *spot, double slope[3])
+static void slope_of(const DistanceGrid *grid, const CellPosition *spot, double slope[3])
 {
     for (int k = 0; k < 3; k++) {
         double low[3], high[3];
@@ -557,7 +389,7 @@ static void slope_of(const DistanceGrid *grid, const Spot *spot, double slope[3]
 
 double distance_at(const DistanceGrid *grid, const double x[3], double slope[3])
 {
-    Spot spot;
+    CellPosition spot;
     spot_at(grid, x, &spot);
     const double value = between(spot.corner, spot.t);
     if (slope)

@@ -1,4 +1,5 @@
-#include "sim/base/parallel.h"
+#include "sim/base/base.h"
+#include "sim/base/simd.h"
 #include "sim/kernel/kernel.h"
 #include "slosh/mesh.h"
 
@@ -76,17 +77,17 @@ static void reached(const FieldParticles *particles, const VolumeGrid *grid, int
 
 /* ---- the sums of a slab ---- */
 
-typedef struct Sum {
+typedef struct FieldSumJob {
     const FieldParticles *particles;
     const VolumeGrid *grid;
     const Bins *slabs;
     float *field, *weighted;
-} Sum;
+} FieldSumJob;
 
 /* Slabs within reach of particle i. */
 static BinSpan reached_slabs(const void *context, size_t i)
 {
-    const Sum *sum = context;
+    const FieldSumJob *sum = context;
     int slice = 0, slice_end = 0;
     if (counts(sum->particles, i))
         reached(sum->particles, sum->grid, 2, sum->particles->position[4 * i + 2], &slice, &slice_end);
@@ -100,27 +101,21 @@ void field_slabs_free(FieldSlabs *slabs)
 }
 
 /* A particle's contribution in grid units: V W = most (1 - q^2)^3, q = r / h; Müller 2003, eq. 20. */
-typedef struct Bump {
+typedef struct ParticleKernel {
     int first[3], end[3]; /* range of grid values within reach */
     float at[3];          /* position relative to the first value, cells */
     float most, inverse;  /* V W(0); 1 / (h / cell)^2 */
-} Bump;
+} ParticleKernel;
 
-enum { LANES = 8, ROW = 256 }; /* values along x: in a register; in a piece of a row */
-
-typedef float Lanes __attribute__((vector_size(4 * LANES), aligned(4), may_alias));
-typedef int32_t LaneMask __attribute__((vector_size(4 * LANES)));
-
-/* Inlined into a function for each instruction set; lanes are independent, so the bits are the same. */
-#define INLINE static inline __attribute__((always_inline))
+enum { ROW = 256 }; /* values along x in a piece of a row */
 
 /* Adds most (1 - q^2)^3, where q^2 = square + 1 - left. */
-INLINE void add_row(float *restrict row, const float *restrict square, int count, float left, float most)
+SIMD_INLINE void add_row(float *restrict row, const float *restrict square, int count, float left, float most)
 {
     int i = 0;
     for (; i + LANES <= count; i += LANES) {
-        const Lanes t = left - *(const Lanes *)(square + i), u = (Lanes)((LaneMask)t & (t > 0));
-        *(Lanes *)(row + i) += most * (u * u * u);
+        const f8 u = f8_positive(left - f8_load(square + i));
+        f8_store(row + i, f8_load(row + i) + most * (u * u * u));
     }
     for (; i < count; i++) {
         const float t = left - square[i], u = t > 0 ? t : 0;
@@ -130,7 +125,8 @@ INLINE void add_row(float *restrict row, const float *restrict square, int count
 
 /* Adds to the values first <= i < first + count of each row. Rounds count up to whole registers if the row
    has room: values beyond the bump get 0. */
-INLINE void add_rows(float *values, const VolumeGrid *grid, const Bump *bump, int first, int count)
+SIMD_INLINE void add_rows(float *values, const VolumeGrid *grid, const ParticleKernel *bump, int first,
+                          int count)
 {
     float square[ROW];
     const int width = grid->size[0], height = grid->size[1], whole = (count + LANES - 1) / LANES * LANES;
@@ -149,38 +145,33 @@ INLINE void add_rows(float *values, const VolumeGrid *grid, const Bump *bump, in
         }
 }
 
-INLINE void add_pieces(float *values, const VolumeGrid *grid, const Bump *bump)
+SIMD_INLINE void add_pieces(float *values, const VolumeGrid *grid, const ParticleKernel *bump)
 {
     for (int i = bump->first[0]; i < bump->end[0]; i += ROW)
         add_rows(values, grid, bump, i, bump->end[0] - i < ROW ? bump->end[0] - i : ROW);
 }
 
-#if defined(__x86_64__)
-static __attribute__((target("avx2"))) void add_wide(float *values, const VolumeGrid *grid, const Bump *bump)
+static SIMD_WIDE void add_wide(float *values, const VolumeGrid *grid, const ParticleKernel *bump)
 {
     add_pieces(values, grid, bump);
 }
-#endif
 
-static void add_bump(float *values, const VolumeGrid *grid, const Bump *bump)
+static void add_bump(float *values, const VolumeGrid *grid, const ParticleKernel *bump)
 {
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) {
+    if (simd_wide())
         add_wide(values, grid, bump);
-        return;
-    }
-#endif
-    add_pieces(values, grid, bump);
+    else
+        add_pieces(values, grid, bump);
 }
 
-static void sum_member(const Sum *sum, size_t i, int slice, int slice_end)
+static void sum_member(const FieldSumJob *sum, size_t i, int slice, int slice_end)
 {
     const FieldParticles *particles = sum->particles;
     const VolumeGrid *grid = sum->grid;
     const float *p = particles->position + 4 * i;
     const double reach = particles->support / grid->cell;
-    Bump bump = {.most = (float)(p[3] * kernel_poly6(0, particles->support)),
-                 .inverse = (float)(1 / (reach * reach))};
+    ParticleKernel bump = {.most = (float)(p[3] * kernel_poly6(0, particles->support)),
+                           .inverse = (float)(1 / (reach * reach))};
     for (int k = 0; k < 3; k++) {
         reached(particles, grid, k, p[k], &bump.first[k], &bump.end[k]);
         bump.at[k] = (float)((p[k] - grid->corner[k]) / grid->cell - 0.5);
@@ -197,7 +188,7 @@ static void sum_member(const Sum *sum, size_t i, int slice, int slice_end)
 
 static void sum_slab(void *context, size_t slab, size_t slab_end)
 {
-    const Sum *sum = context;
+    const FieldSumJob *sum = context;
     const size_t slice_cells = (size_t)sum->grid->size[0] * (size_t)sum->grid->size[1];
     for (; slab < slab_end; slab++) {
         const int depth = sum->grid->size[2], slice = (int)slab * SLAB;
@@ -216,7 +207,7 @@ bool field_sum(const FieldParticles *particles, const VolumeGrid *grid, int thre
                float *field, float *weighted, Error *error)
 {
     const size_t count = ((size_t)grid->size[2] + SLAB - 1) / SLAB;
-    Sum sum = {particles, grid, &slabs->bins, field, particles->scalar ? weighted : NULL};
+    FieldSumJob sum = {particles, grid, &slabs->bins, field, particles->scalar ? weighted : NULL};
     if (!bins_fill(&slabs->bins, count, particles->count, reached_slabs, &sum))
         return error_set(error, "no memory to sum the field of %zu particles", particles->count);
     parallel_ranges(threads, count, 1, sum_slab, &sum);

@@ -15,10 +15,10 @@ enum { CORNERS = 8, EDGES = 12, CASES = 256, MOST_TRIANGLES = 5 };
 
 /* ---- the cases of a cube; corner bits: 1 x, 2 y, 4 z; edges: 4 axis + the two other bits ---- */
 
-typedef struct Cases {
+typedef struct CubeCases {
     uint8_t triangles[CASES];
     uint8_t edge[CASES][3 * MOST_TRIANGLES]; /* three for each triangle */
-} Cases;
+} CubeCases;
 
 /* The edge along `axis` with `corner` as an end. */
 static int edge_at(int corner, int axis)
@@ -73,7 +73,7 @@ static bool fan_is_inside(const int loop[], int length, int apex)
     return true;
 }
 
-static void add_fan(Cases *cases, int inside, const int loop[], int length)
+static void add_fan(CubeCases *cases, int inside, const int loop[], int length)
 {
     int apex = 0;
     while (!fan_is_inside(loop, length, apex)) /* every loop has such an apex */
@@ -87,7 +87,7 @@ static void add_fan(Cases *cases, int inside, const int loop[], int length)
 }
 
 /* Follows the lines across the faces into closed loops. */
-static void make_case(Cases *cases, int inside)
+static void make_case(CubeCases *cases, int inside)
 {
     int next[EDGES], loop[EDGES];
     memset(next, -1, sizeof next);
@@ -105,7 +105,7 @@ static void make_case(Cases *cases, int inside)
     }
 }
 
-static void make_cases(Cases *cases)
+static void make_cases(CubeCases *cases)
 {
     memset(cases, 0, sizeof *cases);
     for (int inside = 0; inside < CASES; inside++)
@@ -115,7 +115,7 @@ static void make_cases(Cases *cases)
 /* ---- the march ---- */
 
 /* State between two slices of values. The upper slice becomes the lower slice of the next step. */
-typedef struct March {
+typedef struct MarchingCubes {
     const float *values;
     float level;
     size_t width, height, depth;
@@ -124,9 +124,9 @@ typedef struct March {
     uint32_t *risen;         /* vertex on the edge from the lower to the upper slice */
     size_t vertex_capacity, triangle_capacity;
     IsoMesh *mesh;
-} March;
+} MarchingCubes;
 
-static bool march_begin(March *march)
+static bool march_begin(MarchingCubes *march)
 {
     const size_t slice = march->width * march->height;
     bool made = true;
@@ -139,7 +139,7 @@ static bool march_begin(March *march)
     return made && march->risen;
 }
 
-static void march_end(March *march)
+static void march_end(MarchingCubes *march)
 {
     for (int s = 0; s < 2; s++) {
         free(march->inside[s]);
@@ -150,7 +150,7 @@ static void march_end(March *march)
 }
 
 /* Makes room for a further element; doubles a full array. Returns false if memory is short. */
-static bool room(void **array, size_t count, size_t *capacity, size_t width)
+static bool capacity(void **array, size_t count, size_t *capacity, size_t width)
 {
     if (count < *capacity)
         return true;
@@ -173,11 +173,11 @@ static float crossing(float from, float to, float level, bool outwards)
 
 /* Adds a vertex on the edge along `axis` from `at`. `outwards`: `at` is inside. Returns false if memory is
    short. */
-static bool add_vertex(March *march, size_t at, int axis, size_t step, bool outwards, uint32_t *index)
+static bool add_vertex(MarchingCubes *march, size_t at, int axis, size_t step, bool outwards, uint32_t *index)
 {
     IsoMesh *mesh = march->mesh;
     if (mesh->vertex_count == UINT32_MAX ||
-        !room((void **)&mesh->vertex, mesh->vertex_count, &march->vertex_capacity, sizeof *mesh->vertex))
+        !capacity((void **)&mesh->vertex, mesh->vertex_count, &march->vertex_capacity, sizeof *mesh->vertex))
         return false;
     const float t = crossing(march->values[at], march->values[at + step], march->level, outwards);
     *index = (uint32_t)mesh->vertex_count;
@@ -186,7 +186,7 @@ static bool add_vertex(March *march, size_t at, int axis, size_t step, bool outw
 }
 
 /* Moves up: the upper slice becomes the lower, slice k the upper. */
-static void next_slice(March *march, size_t k)
+static void next_slice(MarchingCubes *march, size_t k)
 {
     uint8_t *inside = march->inside[0];
     uint32_t *along_x = march->crossed[0][0], *along_y = march->crossed[0][1];
@@ -205,7 +205,7 @@ static void next_slice(March *march, size_t k)
 
 /* Adds vertices on the edges of slice k, and on the edges between slices k - 1 and k. Border values are all
    outside, so the end of a row and the last row give no vertex. */
-static bool add_vertices(March *march, size_t k)
+static bool add_vertices(MarchingCubes *march, size_t k)
 {
     const size_t slice = march->width * march->height;
     const uint8_t *below = march->inside[0], *here = march->inside[1];
@@ -224,7 +224,7 @@ static bool add_vertices(March *march, size_t k)
 }
 
 /* The vertex on an edge of the cube at `at`. */
-static uint32_t cube_vertex(const March *march, size_t at, int edge)
+static uint32_t cube_vertex(const MarchingCubes *march, size_t at, int edge)
 {
     const int axis = edge / 4, first = edge & 1, second = edge >> 1 & 1; /* bits of axis + 1, axis + 2 */
     const size_t y = march->width;
@@ -235,12 +235,12 @@ static uint32_t cube_vertex(const March *march, size_t at, int edge)
     return march->risen[at + (size_t)first + (second ? y : 0)];
 }
 
-static bool add_cube(March *march, const Cases *cases, size_t at, int inside)
+static bool add_cube(MarchingCubes *march, const CubeCases *cases, size_t at, int inside)
 {
     IsoMesh *mesh = march->mesh;
     for (int k = 0; k < cases->triangles[inside]; k++) {
-        if (!room((void **)&mesh->triangle, mesh->triangle_count, &march->triangle_capacity,
-                  sizeof *mesh->triangle))
+        if (!capacity((void **)&mesh->triangle, mesh->triangle_count, &march->triangle_capacity,
+                      sizeof *mesh->triangle))
             return false;
         for (int corner = 0; corner < 3; corner++)
             mesh->triangle[mesh->triangle_count][corner] =
@@ -256,7 +256,7 @@ static int four(const uint8_t *inside, size_t width)
     return inside[0] | inside[1] << 1 | inside[width] << 2 | inside[width + 1] << 3;
 }
 
-static bool add_cubes(March *march, const Cases *cases)
+static bool add_cubes(MarchingCubes *march, const CubeCases *cases)
 {
     for (size_t j = 0; j + 1 < march->height; j++)
         for (size_t i = 0; i + 1 < march->width; i++) {
@@ -269,9 +269,9 @@ static bool add_cubes(March *march, const Cases *cases)
     return true;
 }
 
-static bool march_on(March *march)
+static bool march_on(MarchingCubes *march)
 {
-    Cases cases;
+    CubeCases cases;
     make_cases(&cases);
     for (size_t k = 1; k < march->depth; k++) {
         next_slice(march, k);
@@ -284,12 +284,12 @@ static bool march_on(March *march)
 bool isosurface(const int size[3], const float *values, float level, IsoMesh *mesh, Error *error)
 {
     *mesh = (IsoMesh){.size = {size[0], size[1], size[2]}};
-    March march = {.values = values,
-                   .level = level,
-                   .width = (size_t)size[0],
-                   .height = (size_t)size[1],
-                   .depth = (size_t)size[2],
-                   .mesh = mesh};
+    MarchingCubes march = {.values = values,
+                           .level = level,
+                           .width = (size_t)size[0],
+                           .height = (size_t)size[1],
+                           .depth = (size_t)size[2],
+                           .mesh = mesh};
     const bool made = march_begin(&march) && march_on(&march);
     march_end(&march);
     if (made)

@@ -1,7 +1,4 @@
-#include "sim/mesh/mend.h"
-
-#include "sim/mesh/distance.h"
-#include "sim/mesh/triangles.h"
+#include "sim/mesh/mesh_shape.h"
 #include "slosh/mesh.h"
 
 #include <math.h>
@@ -12,13 +9,13 @@ enum { WIDE = 4 }; /* cell size per joining distance: along each axis a vertex i
 
 #define NOBODY UINT32_MAX
 
-typedef struct Weld {
+typedef struct VertexWeld {
     float (*vertex)[3];
     double low[3], near, cell;
     size_t slots;
     uint64_t *key;  /* cell of each slot; 0: free. Each kept vertex has a slot */
     uint32_t *name; /* new number of a vertex */
-} Weld;
+} VertexWeld;
 
 static uint64_t key_of(const int64_t cell[3])
 {
@@ -28,12 +25,12 @@ static uint64_t key_of(const int64_t cell[3])
     return key;
 }
 
-static size_t first_slot(const Weld *weld, uint64_t key)
+static size_t first_slot(const VertexWeld *weld, uint64_t key)
 {
     return (size_t)(key * 0x9e3779b97f4a7c15ULL >> 20) & (weld->slots - 1);
 }
 
-static bool are_near(const Weld *weld, const float a[3], const float b[3])
+static bool are_near(const VertexWeld *weld, const float a[3], const float b[3])
 {
     double d2 = 0;
     for (int k = 0; k < 3; k++)
@@ -42,7 +39,7 @@ static bool are_near(const Weld *weld, const float a[3], const float b[3])
 }
 
 /* First kept vertex of a cell within joining distance of x, if before `best`. */
-static uint32_t first_near(const Weld *weld, uint64_t key, const float x[3], uint32_t best)
+static uint32_t first_near(const VertexWeld *weld, uint64_t key, const float x[3], uint32_t best)
 {
     for (size_t slot = first_slot(weld, key); weld->key[slot]; slot = (slot + 1) & (weld->slots - 1))
         if (weld->key[slot] == key && weld->name[slot] < best &&
@@ -52,7 +49,7 @@ static uint32_t first_near(const Weld *weld, uint64_t key, const float x[3], uin
 }
 
 /* First kept vertex near x, in all cells: a later vertex at the same x finds the same vertex. */
-static uint32_t find(const Weld *weld, const float x[3], const int64_t cell[3])
+static uint32_t find(const VertexWeld *weld, const float x[3], const int64_t cell[3])
 {
     int step[3], count[3];
     uint32_t best = NOBODY;
@@ -69,7 +66,7 @@ static uint32_t find(const Weld *weld, const float x[3], const int64_t cell[3])
     return best;
 }
 
-static void add(Weld *weld, uint64_t key, uint32_t name)
+static void add(VertexWeld *weld, uint64_t key, uint32_t name)
 {
     size_t slot = first_slot(weld, key);
     while (weld->key[slot])
@@ -79,7 +76,7 @@ static void add(Weld *weld, uint64_t key, uint32_t name)
 }
 
 /* `name`: new number of each vertex. */
-static void weld_all(Triangles *triangles, Weld *weld, uint32_t *name)
+static void weld_all(Triangles *triangles, VertexWeld *weld, uint32_t *name)
 {
     uint32_t kept = 0;
     for (size_t i = 0; i < triangles->vertex_count; i++) {
@@ -102,7 +99,7 @@ static void weld_all(Triangles *triangles, Weld *weld, uint32_t *name)
    bits. Returns false if memory is short. */
 static bool weld_vertices(Triangles *triangles, double part)
 {
-    Weld weld = {.vertex = triangles->vertex, .slots = 16};
+    VertexWeld weld = {.vertex = triangles->vertex, .slots = 16};
     double high[3];
     triangles_bounds(triangles, weld.low, high);
     const double longest = fmax(fmax(high[0] - weld.low[0], high[1] - weld.low[1]), high[2] - weld.low[2]);
@@ -202,50 +199,50 @@ void parts_free(Parts *parts)
 
 enum { ASKED = 8 }; /* test points on each part */
 
-typedef struct Part {
+typedef struct MeshPart {
     double volume;
     uint32_t rank;  /* by volume: greatest first */
     uint32_t count; /* triangles */
     bool turned;
-} Part;
+} MeshPart;
 
-typedef struct Turner {
+typedef struct OrientationJob {
     const Triangles *triangles;
     const uint32_t *of;
-    Part *part;
+    MeshPart *part;
     uint32_t part_count, *order; /* by rank */
     double aside;
     TriangleTree tree;
     const Stop *stop;
-} Turner;
+} OrientationJob;
 
-static void measure(Turner *turner)
+static void measure(OrientationJob *turner)
 {
     for (size_t t = 0; t < turner->triangles->triangle_count; t++) {
-        Part *part = &turner->part[turner->of[t]];
+        MeshPart *part = &turner->part[turner->of[t]];
         part->volume += triangle_volume6(turner->triangles, t);
         part->count++;
     }
 }
 
-typedef struct Ranked {
+typedef struct RankedPart {
     double volume;
     uint32_t part;
-} Ranked;
+} RankedPart;
 
 static int by_volume(const void *a, const void *b)
 {
-    const Ranked *x = a, *y = b;
+    const RankedPart *x = a, *y = b;
     if (x->volume != y->volume)
         return x->volume > y->volume ? -1 : 1;
     return (x->part > y->part) - (x->part < y->part);
 }
 
-static bool rank(Turner *turner)
+static bool rank(OrientationJob *turner)
 {
-    Ranked *ranked = malloc((turner->part_count + 1) * sizeof *ranked);
+    RankedPart *ranked = malloc((turner->part_count + 1) * sizeof *ranked);
     for (uint32_t p = 0; ranked && p < turner->part_count; p++)
-        ranked[p] = (Ranked){fabs(turner->part[p].volume), p};
+        ranked[p] = (RankedPart){fabs(turner->part[p].volume), p};
     if (!ranked)
         return false;
     qsort(ranked, turner->part_count, sizeof *ranked, by_volume);
@@ -259,7 +256,7 @@ static bool rank(Turner *turner)
 
 /* Winding number around x of the parts of a rank below `rank`. */
 typedef struct Winding {
-    const Turner *turner;
+    const OrientationJob *turner;
     const double *x;
     uint32_t rank;
     int sum;
@@ -268,8 +265,8 @@ typedef struct Winding {
 static void wind(void *context, uint32_t t)
 {
     Winding *winding = context;
-    const Turner *turner = winding->turner;
-    const Part *part = &turner->part[turner->of[t]];
+    const OrientationJob *turner = winding->turner;
+    const MeshPart *part = &turner->part[turner->of[t]];
     double at;
     if (part->rank >= winding->rank)
         return;
@@ -278,7 +275,7 @@ static void wind(void *context, uint32_t t)
         winding->sum += part->turned ? -way : way;
 }
 
-static int winding_at(const Turner *turner, const double x[3], uint32_t rank)
+static int winding_at(const OrientationJob *turner, const double x[3], uint32_t rank)
 {
     Winding winding = {.turner = turner, .x = x, .rank = rank};
     triangle_tree_ahead(&turner->tree, x, wind, &winding);
@@ -286,7 +283,7 @@ static int winding_at(const Turner *turner, const double x[3], uint32_t rank)
 }
 
 /* A point just outside the volume of an inside-out part, at the middle of triangle t. */
-static void place_outside(const Turner *turner, size_t t, double x[3])
+static void place_outside(const OrientationJob *turner, size_t t, double x[3])
 {
     const Triangles *of = turner->triangles;
     double normal[3];
@@ -301,9 +298,9 @@ static void place_outside(const Turner *turner, size_t t, double x[3])
 }
 
 /* True if all test points of part p are inside greater parts. `member`: the triangles of part p. */
-static bool is_cavity(const Turner *turner, uint32_t p, const uint32_t *member)
+static bool is_cavity(const OrientationJob *turner, uint32_t p, const uint32_t *member)
 {
-    const Part *part = &turner->part[p];
+    const MeshPart *part = &turner->part[p];
     for (uint32_t k = 0; k < ASKED; k++) {
         double x[3];
         place_outside(turner, member[(uint64_t)part->count * k / ASKED], x);
@@ -313,12 +310,12 @@ static bool is_cavity(const Turner *turner, uint32_t p, const uint32_t *member)
     return true;
 }
 
-static size_t decide(Turner *turner, const uint32_t *member, const uint32_t *first)
+static size_t decide(OrientationJob *turner, const uint32_t *member, const uint32_t *first)
 {
     size_t turned = 0;
     for (uint32_t r = 0; r < turner->part_count && !stop_wanted(turner->stop); r++) {
         const uint32_t p = turner->order[r];
-        Part *part = &turner->part[p];
+        MeshPart *part = &turner->part[p];
         part->turned = part->volume < 0 && !is_cavity(turner, p, member + first[p]);
         turned += part->turned;
     }
@@ -331,7 +328,7 @@ static BinSpan part_of(const void *context, size_t t)
     return (BinSpan){p, (size_t)p + 1};
 }
 
-static bool find_turned(Turner *turner, size_t *turned)
+static bool find_turned(OrientationJob *turner, size_t *turned)
 {
     Bins members = {0};
     const size_t count = turner->triangles->triangle_count;
@@ -348,7 +345,7 @@ static bool find_turned(Turner *turner, size_t *turned)
     return ok && !stop_wanted(turner->stop);
 }
 
-static bool any_inside_out(const Turner *turner)
+static bool any_inside_out(const OrientationJob *turner)
 {
     for (uint32_t p = 0; p < turner->part_count; p++)
         if (turner->part[p].volume < 0)
@@ -362,7 +359,8 @@ static bool any_inside_out(const Turner *turner)
 static bool parts_turn(Triangles *triangles, const Parts *parts, const Stop *stop, size_t *turned)
 {
     double low[3], high[3];
-    Turner turner = {.triangles = triangles, .of = parts->of, .part_count = parts->count, .stop = stop};
+    OrientationJob turner = {
+        .triangles = triangles, .of = parts->of, .part_count = parts->count, .stop = stop};
     *turned = 0;
     turner.part = calloc(parts->count + 1, sizeof *turner.part);
     turner.order = malloc((parts->count + 1) * sizeof *turner.order);
@@ -384,14 +382,14 @@ static bool parts_turn(Triangles *triangles, const Parts *parts, const Stop *sto
 
 /* ---- doubled triangles ---- */
 
-typedef struct Merge {
+typedef struct SheetMerge {
     const Triangles *triangles;
     const Edges *edges;
     bool walls;
     bool *copy, *wall; /* of each triangle */
     uint32_t *set;     /* sets of copies joined by edges */
     long *worse;       /* increase of unbalanced edges without the set, for each set */
-} Merge;
+} SheetMerge;
 
 /* The corner opposite a side. */
 static uint32_t third(const Triangles *triangles, uint32_t side)
@@ -407,7 +405,7 @@ static int ascending(const void *a, const void *b)
 
 /* Marks triangles with the same corners. With `walls`, pairs of opposite directions are walls; the first
    remaining triangle of each direction stays; the rest are copies. */
-static void mark_set(Merge *merge, const uint64_t *key, size_t count)
+static void mark_set(SheetMerge *merge, const uint64_t *key, size_t count)
 {
     size_t ways[2] = {0}, seen[2] = {0};
     for (size_t i = 0; i < count; i++)
@@ -423,7 +421,7 @@ static void mark_set(Merge *merge, const uint64_t *key, size_t count)
 
 /* Marks triangles at an edge whose third corner has a greater number than both ends: each set is seen at a
    single edge. */
-static void mark_at_edge(Merge *merge, size_t e, uint64_t *key)
+static void mark_at_edge(SheetMerge *merge, size_t e, uint64_t *key)
 {
     const Triangles *triangles = merge->triangles;
     size_t count = 0;
@@ -442,7 +440,7 @@ static void mark_at_edge(Merge *merge, size_t e, uint64_t *key)
     }
 }
 
-static void join_copies(Merge *merge, size_t e)
+static void join_copies(SheetMerge *merge, size_t e)
 {
     uint32_t before = UINT32_MAX;
     for (uint32_t i = merge->edges->first[e]; i < merge->edges->first[e + 1]; i++) {
@@ -457,7 +455,7 @@ static void join_copies(Merge *merge, size_t e)
 
 /* Compares the balance of an edge with copies and without: +1 if only balanced with copies, -1 if only
    balanced without. */
-static void count_worse(Merge *merge, size_t e)
+static void count_worse(SheetMerge *merge, size_t e)
 {
     long with = 0, without = 0;
     uint32_t set = UINT32_MAX;
@@ -474,7 +472,7 @@ static void count_worse(Merge *merge, size_t e)
         merge->worse[set] += (without != 0) - (with != 0);
 }
 
-static size_t take_out(Merge *merge, Triangles *triangles)
+static size_t take_out(SheetMerge *merge, Triangles *triangles)
 {
     size_t kept = 0;
     const size_t count = triangles->triangle_count;
@@ -500,16 +498,16 @@ static bool any_crowded(const Edges *edges)
    sides. *count: number of triangles removed. Returns false if memory is short. */
 static bool parts_merge(Triangles *triangles, const Edges *edges, bool walls, size_t *count)
 {
-    const size_t room = triangles->triangle_count + 1;
+    const size_t capacity = triangles->triangle_count + 1;
     *count = 0;
     if (!any_crowded(edges))
         return true;
-    Merge merge = {.triangles = triangles, .edges = edges, .walls = walls};
-    merge.copy = calloc(room, sizeof *merge.copy);
-    merge.wall = calloc(room, sizeof *merge.wall);
-    merge.worse = calloc(room, sizeof *merge.worse);
+    SheetMerge merge = {.triangles = triangles, .edges = edges, .walls = walls};
+    merge.copy = calloc(capacity, sizeof *merge.copy);
+    merge.wall = calloc(capacity, sizeof *merge.wall);
+    merge.worse = calloc(capacity, sizeof *merge.worse);
     merge.set = all_apart(triangles->triangle_count);
-    uint64_t *key = malloc(3 * room * sizeof *key);
+    uint64_t *key = malloc(3 * capacity * sizeof *key);
     const bool ok = merge.copy && merge.wall && merge.worse && merge.set && key;
     for (size_t e = 0; ok && e < edges->count; e++)
         mark_at_edge(&merge, e, key);

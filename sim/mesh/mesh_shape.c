@@ -1,9 +1,6 @@
 #include "sim/mesh/mesh_shape.h"
 
-#include "sim/base/parallel.h"
-#include "sim/base/sums.h"
-#include "sim/mesh/mend.h"
-#include "sim/mesh/triangles.h"
+#include "sim/base/base.h"
 #include "slosh/mesh.h"
 
 #include <math.h>
@@ -18,13 +15,13 @@ typedef struct Strips {
     double at[STRIPS + 2 * PARTS_MOST + 2], width[STRIPS + 2 * PARTS_MOST + 2];
 } Strips;
 
-typedef struct Crossing {
+typedef struct LineCrossing {
     size_t line;
     double x;
     int way;
-} Crossing;
+} LineCrossing;
 
-typedef struct Lines {
+typedef struct ScanLines {
     const Triangles *of;
     Strips strips[2]; /* along y and z */
     Bins bins;        /* of triangles, by strips along z */
@@ -32,7 +29,7 @@ typedef struct Lines {
     double margin;    /* m: more than the rounding error of a crossing */
     const Stop *stop;
     bool ended; /* memory was short, or stopped */
-} Lines;
+} ScanLines;
 
 /* ---- where the lines are ---- */
 
@@ -67,7 +64,7 @@ static size_t cuts_of(const Triangles *of, const Parts *parts, int axis, double 
     return 2 * count;
 }
 
-static void lay(Lines *lines, const Parts *parts)
+static void lay(ScanLines *lines, const Parts *parts)
 {
     double cut[2][2 * PARTS_MOST] = {{0}}, longest = 0;
     size_t count = 0;
@@ -102,7 +99,7 @@ static BinSpan strips_from(const Strips *strips, double low, double high)
 
 static BinSpan along_z(const void *context, size_t t)
 {
-    const Lines *lines = context;
+    const ScanLines *lines = context;
     double low = INFINITY, high = -INFINITY;
     for (int c = 0; c < 3; c++) {
         low = fmin(low, lines->of->vertex[lines->of->triangle[t][c]][2]);
@@ -112,7 +109,7 @@ static BinSpan along_z(const void *context, size_t t)
 }
 
 /* The strips along y of a triangle in a row. */
-static BinSpan along_y(const Lines *lines, size_t t, size_t row)
+static BinSpan along_y(const ScanLines *lines, size_t t, size_t row)
 {
     double low, high;
     triangle_slice(lines->of, t, lines->strips[1].at[row], lines->margin, &low, &high);
@@ -123,27 +120,28 @@ static BinSpan along_y(const Lines *lines, size_t t, size_t row)
 
 static int by_line(const void *a, const void *b)
 {
-    const Crossing *p = a, *q = b;
+    const LineCrossing *p = a, *q = b;
     if (p->line != q->line)
         return p->line < q->line ? -1 : 1;
     return (p->x > q->x) - (p->x < q->x);
 }
 
-static bool cross(const Lines *lines, size_t t, size_t row, Crossing **all, size_t *count, size_t *room)
+static bool cross(const ScanLines *lines, size_t t, size_t row, LineCrossing **all, size_t *count,
+                  size_t *capacity)
 {
     const BinSpan span = along_y(lines, t, row);
     for (size_t j = span.first; j < span.end; j++) {
         const double p[3] = {0, lines->strips[0].at[j], lines->strips[1].at[row]};
-        Crossing crossing = {.line = j};
+        LineCrossing crossing = {.line = j};
         crossing.way = triangle_crossing(lines->of, t, p, &crossing.x);
         if (crossing.way == 0)
             continue;
-        if (*count == *room) {
-            Crossing *more = realloc(*all, (*room * 2 + 64) * sizeof *more);
+        if (*count == *capacity) {
+            LineCrossing *more = realloc(*all, (*capacity * 2 + 64) * sizeof *more);
             if (!more)
                 return false;
             *all = more;
-            *room = *room * 2 + 64;
+            *capacity = *capacity * 2 + 64;
         }
         (*all)[(*count)++] = crossing;
     }
@@ -167,7 +165,7 @@ static void add_block(Moments *sum, const double low[3], const double high[3], d
     }
 }
 
-static void add_row(Lines *lines, size_t row, const Crossing *all, size_t count)
+static void add_row(ScanLines *lines, size_t row, const LineCrossing *all, size_t count)
 {
     int winding = 0;
     for (size_t i = 0; i + 1 < count; i++) {
@@ -187,14 +185,15 @@ static void add_row(Lines *lines, size_t row, const Crossing *all, size_t count)
 
 static void rows_range(void *context, size_t begin, size_t end)
 {
-    Lines *lines = context;
-    Crossing *all = NULL;
-    size_t room = 0;
+    ScanLines *lines = context;
+    LineCrossing *all = NULL;
+    size_t capacity = 0;
     bool ok = true;
     for (size_t row = begin; row < end && ok; row++) {
         size_t count = 0;
         for (size_t m = lines->bins.begin[row]; ok && m < lines->bins.begin[row + 1]; m++)
-            ok = !stop_wanted(lines->stop) && cross(lines, lines->bins.member[m], row, &all, &count, &room);
+            ok = !stop_wanted(lines->stop) &&
+                 cross(lines, lines->bins.member[m], row, &all, &count, &capacity);
         if (count == 0)
             continue;
         qsort(all, count, sizeof *all, by_line);
@@ -224,7 +223,7 @@ static void add_all(const Moments *sum, size_t count, Moments *excess)
    short, or stopped. */
 static bool overlap_excess(const Triangles *triangles, int threads, const Stop *stop, Moments *excess)
 {
-    Lines *lines = calloc(1, sizeof *lines);
+    ScanLines *lines = calloc(1, sizeof *lines);
     Edges edges = {0};
     Parts parts = {0};
     *excess = (Moments){0};

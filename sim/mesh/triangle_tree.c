@@ -1,4 +1,4 @@
-#include "sim/mesh/distance.h"
+#include "sim/mesh/mesh_shape.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -29,11 +29,11 @@ static double triple(const double a[3], const double b[3], const double c[3])
 enum { FINEST = 128, PIECES_MORE = 500000, CORNERS = 16 };
 static const double ASKEW = 20;
 
-typedef struct Piece {
+typedef struct TrianglePiece {
     float low[3], high[3];
     uint32_t of;
     bool whole; /* the whole triangle */
-} Piece;
+} TrianglePiece;
 
 /* A convex part of a triangle. */
 typedef struct Polygon {
@@ -41,12 +41,12 @@ typedef struct Polygon {
     double corner[CORNERS][3];
 } Polygon;
 
-typedef struct Pieces {
+typedef struct TrianglePieces {
     const Triangles *of;
-    Piece *piece; /* NULL: only counted */
+    TrianglePiece *piece; /* NULL: only counted */
     size_t count, most;
     double longest; /* side of a piece's block, m */
-} Pieces;
+} TrianglePieces;
 
 static void polygon_bounds(const Polygon *polygon, double low[3], double high[3])
 {
@@ -77,11 +77,12 @@ static void clip(const Polygon *from, int axis, double at, double way, Polygon *
     }
 }
 
-static void add_piece(Pieces *pieces, uint32_t t, bool whole, const double low[3], const double high[3])
+static void add_piece(TrianglePieces *pieces, uint32_t t, bool whole, const double low[3],
+                      const double high[3])
 {
     if (pieces->piece && pieces->count < pieces->most) {
-        Piece *piece = &pieces->piece[pieces->count];
-        *piece = (Piece){.of = t, .whole = whole};
+        TrianglePiece *piece = &pieces->piece[pieces->count];
+        *piece = (TrianglePiece){.of = t, .whole = whole};
         for (int k = 0; k < 3; k++) {
             piece->low[k] = whole ? (float)low[k] : nextafterf((float)low[k], -INFINITY);
             piece->high[k] = whole ? (float)high[k] : nextafterf((float)high[k], INFINITY);
@@ -99,7 +100,7 @@ static int longest_side(const double low[3], const double high[3])
     return axis;
 }
 
-static void split(Pieces *pieces, uint32_t t, const Polygon *polygon)
+static void split(TrianglePieces *pieces, uint32_t t, const Polygon *polygon)
 {
     double low[3], high[3];
     Polygon part;
@@ -125,7 +126,7 @@ static bool is_askew(const Triangles *of, size_t t, const double low[3], const d
     return surface > ASKEW * 0.5 * sqrt(dot(normal, normal));
 }
 
-static void take_pieces(Pieces *pieces)
+static void take_pieces(TrianglePieces *pieces)
 {
     const Triangles *of = pieces->of;
     pieces->count = 0;
@@ -144,7 +145,7 @@ static void take_pieces(Pieces *pieces)
 }
 
 /* Finds the pieces; the caller frees `piece`. Returns false if memory is short. */
-static bool make_pieces(Pieces *pieces, bool split_long)
+static bool make_pieces(TrianglePieces *pieces, bool split_long)
 {
     double low[3], high[3];
     triangles_bounds(pieces->of, low, high);
@@ -162,11 +163,11 @@ static bool make_pieces(Pieces *pieces, bool split_long)
 
 /* ---- making the tree ---- */
 
-typedef struct Maker {
+typedef struct TreeBuild {
     TriangleTree *tree;
-    const Piece *piece;
+    const TrianglePiece *piece;
     float (*middle)[3]; /* of each piece, times three */
-} Maker;
+} TreeBuild;
 
 static void swap(uint32_t *a, uint32_t *b)
 {
@@ -177,7 +178,7 @@ static void swap(uint32_t *a, uint32_t *b)
 
 /* Puts the right item at `at`, lesser items before and greater items after: Hoare, "Algorithm 65: find",
    1961. */
-static void select_middle(const Maker *maker, uint32_t *item, long count, long at, int axis)
+static void select_middle(const TreeBuild *maker, uint32_t *item, long count, long at, int axis)
 {
     long low = 0, high = count - 1;
     while (low < high) {
@@ -198,12 +199,12 @@ static void select_middle(const Maker *maker, uint32_t *item, long count, long a
     }
 }
 
-static void bound(const Maker *maker, const uint32_t *item, size_t count, TreeNode *node)
+static void bound(const TreeBuild *maker, const uint32_t *item, size_t count, TreeNode *node)
 {
     for (int k = 0; k < 3; k++)
         node->low[k] = INFINITY, node->high[k] = -INFINITY;
     for (size_t i = 0; i < count; i++) {
-        const Piece *piece = &maker->piece[item[i]];
+        const TrianglePiece *piece = &maker->piece[item[i]];
         for (int k = 0; k < 3; k++) {
             node->low[k] = piece->low[k] < node->low[k] ? piece->low[k] : node->low[k];
             node->high[k] = piece->high[k] > node->high[k] ? piece->high[k] : node->high[k];
@@ -212,7 +213,7 @@ static void bound(const Maker *maker, const uint32_t *item, size_t count, TreeNo
 }
 
 /* A disc around whole triangles; none around pieces. */
-static Disc disc_of(const Maker *maker, const uint32_t *item, uint32_t count)
+static Disc disc_of(const TreeBuild *maker, const uint32_t *item, uint32_t count)
 {
     uint32_t triangle[DISC_MOST];
     bool whole = count <= DISC_MOST;
@@ -232,7 +233,7 @@ static int longest_axis(const TreeNode *node)
     return axis;
 }
 
-static void make_node(const Maker *maker, uint32_t first, uint32_t count)
+static void make_node(const TreeBuild *maker, uint32_t first, uint32_t count)
 {
     TriangleTree *tree = maker->tree;
     uint32_t *item = tree->order + first;
@@ -267,11 +268,11 @@ static void plane_of(const float corner[9], double plane[4])
     }
 }
 
-static void middles(const Pieces *pieces, float (*middle)[3])
+static void middles(const TrianglePieces *pieces, float (*middle)[3])
 {
     const Triangles *of = pieces->of;
     for (size_t i = 0; i < pieces->count; i++) {
-        const Piece *piece = &pieces->piece[i];
+        const TrianglePiece *piece = &pieces->piece[i];
         const uint32_t *corner = of->triangle[piece->of];
         for (int k = 0; k < 3; k++)
             middle[i][k] =
@@ -280,7 +281,7 @@ static void middles(const Pieces *pieces, float (*middle)[3])
     }
 }
 
-static void fill(TriangleTree *tree, const Pieces *pieces, const Maker *maker)
+static void fill(TriangleTree *tree, const TrianglePieces *pieces, const TreeBuild *maker)
 {
     const Triangles *of = tree->of;
     const size_t count = pieces->count;
@@ -299,7 +300,7 @@ static void fill(TriangleTree *tree, const Pieces *pieces, const Maker *maker)
 
 bool triangle_tree_make(TriangleTree *tree, const Triangles *triangles, bool pieces)
 {
-    Pieces all = {.of = triangles};
+    TrianglePieces all = {.of = triangles};
     *tree = (TriangleTree){.of = triangles};
     if (!make_pieces(&all, pieces))
         return false;
@@ -308,7 +309,7 @@ bool triangle_tree_make(TriangleTree *tree, const Triangles *triangles, bool pie
     tree->order = malloc((count + 1) * sizeof *tree->order);
     tree->corner = malloc((count + 1) * sizeof *tree->corner);
     tree->plane = malloc((count + 1) * sizeof *tree->plane);
-    const Maker maker = {tree, all.piece, malloc((count + 1) * sizeof *maker.middle)};
+    const TreeBuild maker = {tree, all.piece, malloc((count + 1) * sizeof *maker.middle)};
     const bool ok = tree->node && tree->order && tree->corner && tree->plane && maker.middle;
     if (ok)
         fill(tree, &all, &maker);

@@ -1,4 +1,5 @@
-#include "sim/points/fields.h"
+#include "sim/points/points.h"
+
 #include "sim/points/walk.h"
 
 #include <math.h>
@@ -6,59 +7,60 @@
 static const double finest = 1.0 / 32; /* of a width: the march of analytic fields */
 static const double paper = 1e-2;      /* of a width: sqrt(2 dt), Tanaka et al. 2012, section 4 */
 
-LANES_INLINE Lanes number(const LevelField *field, int k)
+SIMD_INLINE f8 number(const LevelField *field, int k)
 {
-    return lanes((float)field->number[k]);
+    return f8_splat((float)field->number[k]);
 }
 
-LANES_INLINE void sphere_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+SIMD_INLINE void sphere_at(const LevelField *field, const LanePlace *p, LaneSample *out)
 {
-    const Lanes x = p->x - number(field, 0), y = p->y - number(field, 1), z = p->z - number(field, 2);
-    const Lanes r = lanes_sqrt(x * x + y * y + z * z), inverse = lanes(1) / r;
-    *out = (LaneSample){number(field, 3) - r, -x * inverse, -y * inverse, -z * inverse, lanes(-2) * inverse};
+    const f8 x = p->x - number(field, 0), y = p->y - number(field, 1), z = p->z - number(field, 2);
+    const f8 r = f8_sqrt(x * x + y * y + z * z), inverse = f8_splat(1) / r;
+    *out =
+        (LaneSample){number(field, 3) - r, -x * inverse, -y * inverse, -z * inverse, f8_splat(-2) * inverse};
 }
 
-LANES_INLINE void torus_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+SIMD_INLINE void torus_at(const LevelField *field, const LanePlace *p, LaneSample *out)
 {
-    const Lanes x = p->x - number(field, 0), y = p->y - number(field, 1), z = p->z - number(field, 2);
-    const Lanes rho = lanes_sqrt(x * x + z * z), beyond = rho - number(field, 4);
-    const Lanes t = lanes_sqrt(beyond * beyond + y * y), inverse = lanes(1) / t;
-    const Lanes radial = beyond * inverse / rho;
+    const f8 x = p->x - number(field, 0), y = p->y - number(field, 1), z = p->z - number(field, 2);
+    const f8 rho = f8_sqrt(x * x + z * z), beyond = rho - number(field, 4);
+    const f8 t = f8_sqrt(beyond * beyond + y * y), inverse = f8_splat(1) / t;
+    const f8 radial = beyond * inverse / rho;
     *out = (LaneSample){number(field, 3) - t, -x * radial, -y * inverse, -z * radial, -(inverse + radial)};
 }
 
-LANES_INLINE void gyroid_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+SIMD_INLINE void gyroid_at(const LevelField *field, const LanePlace *p, LaneSample *out)
 {
-    const Lanes turns = number(field, 0), k = number(field, 1), square = k * k;
-    Lanes sx, cx, sy, cy, sz, cz;
-    lanes_turn(turns * p->x, &sx, &cx);
-    lanes_turn(turns * p->y, &sy, &cy);
-    lanes_turn(turns * p->z, &sz, &cz);
-    const Lanes a = sx * cy, b = sy * cz, c = sz * cx;
-    const Lanes straight[3] = {-square * (a + c), -square * (a + b), -square * (b + c)};
-    const Lanes mixed[3] = {-square * cx * sy, -square * cy * sz, -square * cz * sx};
+    const f8 turns = number(field, 0), k = number(field, 1), square = k * k;
+    f8 sx, cx, sy, cy, sz, cz;
+    f8_sincos(turns * p->x, &sx, &cx);
+    f8_sincos(turns * p->y, &sy, &cy);
+    f8_sincos(turns * p->z, &sz, &cz);
+    const f8 a = sx * cy, b = sy * cz, c = sz * cx;
+    const f8 straight[3] = {-square * (a + c), -square * (a + b), -square * (b + c)};
+    const f8 mixed[3] = {-square * cx * sy, -square * cy * sz, -square * cz * sx};
     *out = (LaneSample){a + b + c, k * (cx * cy - sz * sx), k * (cy * cz - sx * sy), k * (cz * cx - sy * sz),
-                        lanes(0)};
+                        f8_splat(0)};
     out->bend = lane_bend(out, straight, mixed);
 }
 
-LANES_INLINE void wave_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+SIMD_INLINE void wave_at(const LevelField *field, const LanePlace *p, LaneSample *out)
 {
-    const Lanes turns = number(field, 0), k = number(field, 1), high = number(field, 2), none = lanes(0);
-    Lanes sx, cx, sz, cz;
-    lanes_turn(turns * p->x, &sx, &cx);
-    lanes_turn(turns * p->z, &sz, &cz);
-    const Lanes wave = high * cx * cz, straight[3] = {-k * k * wave, none, -k * k * wave};
-    const Lanes mixed[3] = {none, none, k * k * high * sx * sz};
-    *out = (LaneSample){number(field, 3) + wave - p->y, -k * high * sx * cz, lanes(-1), -k * high * cx * sz,
-                        none};
+    const f8 turns = number(field, 0), k = number(field, 1), high = number(field, 2), none = f8_splat(0);
+    f8 sx, cx, sz, cz;
+    f8_sincos(turns * p->x, &sx, &cx);
+    f8_sincos(turns * p->z, &sz, &cz);
+    const f8 wave = high * cx * cz, straight[3] = {-k * k * wave, none, -k * k * wave};
+    const f8 mixed[3] = {none, none, k * k * high * sx * sz};
+    *out = (LaneSample){number(field, 3) + wave - p->y, -k * high * sx * cz, f8_splat(-1),
+                        -k * high * cx * sz, none};
     out->bend = lane_bend(out, straight, mixed);
 }
 
-LANES_INLINE void plane_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+SIMD_INLINE void plane_at(const LevelField *field, const LanePlace *p, LaneSample *out)
 {
-    const Lanes x = number(field, 0), y = number(field, 1), z = number(field, 2);
-    *out = (LaneSample){x * p->x + y * p->y + z * p->z - number(field, 3), x, y, z, lanes(0)};
+    const f8 x = number(field, 0), y = number(field, 1), z = number(field, 2);
+    *out = (LaneSample){x * p->x + y * p->y + z * p->z - number(field, 3), x, y, z, f8_splat(0)};
 }
 
 LEVEL_KIND(sphere)

@@ -1,7 +1,7 @@
-#include "sim/points/level_kind.h"
+#include "sim/points/points.h"
 
-#include "sim/base/parallel.h"
-#include "sim/points/sampling.h"
+#include "sim/base/base.h"
+#include "sim/points/walk.h"
 
 #include <math.h>
 #include <stdlib.h>

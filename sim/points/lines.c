@@ -1,6 +1,5 @@
-#include "sim/points/level_kind.h"
-
-#include "sim/base/parallel.h"
+#include "sim/base/base.h"
+#include "sim/points/walk.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,24 +11,24 @@ static const size_t enough = (size_t)1 << 21; /* crossings: more than any number
 static const double pieces_most = 1e5;        /* along an axis: a thousand lines take a second or two */
 
 /* Results of the lines of a range. */
-typedef struct Found {
+typedef struct LineExtremes {
     size_t count, capacity, flat; /* flat: crossings without a gradient */
     float (*place)[3];
     double least, most; /* of the field */
     bool no_memory, no_number;
     float bad[3]; /* a position where the field is not finite */
-} Found;
+} LineExtremes;
 
-typedef struct Lines {
+typedef struct LineSearchJob {
     const LineSearch *search;
     double shift[4], face[3]; /* m2: face across each axis */
     size_t first;             /* line of the first range */
-    Found *found;
-} Lines;
+    LineExtremes *found;
+} LineSearchJob;
 
-typedef struct Line {
+typedef struct SearchLine {
     double from[3], along[3], length; /* m; unit */
-} Line;
+} SearchLine;
 
 static double part(double a)
 {
@@ -37,7 +36,7 @@ static double part(double a)
 }
 
 /* The i-th line: enters the box at a uniform point on its faces, at an angle by the cosine law. */
-static Line line_of(const Lines *lines, size_t i)
+static SearchLine line_of(const LineSearchJob *lines, size_t i)
 {
     const LineSearch *search = lines->search;
     static const double ratio = 1.1673039782614187; /* ratio^5 = ratio + 1 */
@@ -55,9 +54,10 @@ static Line line_of(const Lines *lines, size_t i)
     }
     const int v = (axis + 1) % 3, w = (axis + 2) % 3;
     const double *low = search->low, *high = search->high, tilt = sqrt(u[2]);
-    Line line = {.length = HUGE_VAL};
-    Lanes sine, cosine;
-    lanes_turn(lanes((float)u[3]), &sine, &cosine); /* the C library's functions differ between processors */
+    SearchLine line = {.length = HUGE_VAL};
+    f8 sine, cosine;
+    f8_sincos(f8_splat((float)u[3]), &sine,
+              &cosine); /* the C library's functions differ between processors */
     line.from[axis] = side ? high[axis] : low[axis];
     line.from[v] = low[v] + (high[v] - low[v]) * fmin(left / lines->face[axis], 1);
     line.from[w] = low[w] + (high[w] - low[w]) * u[1];
@@ -72,7 +72,7 @@ static Line line_of(const Lines *lines, size_t i)
 }
 
 /* Samples eight positions of a line, `apart` from each other. */
-static void look(const LineSearch *search, const Line *line, double from, double apart, LanePlace *p,
+static void look(const LineSearch *search, const SearchLine *line, double from, double apart, LanePlace *p,
                  LaneSample *s)
 {
     for (int lane = 0; lane < LANES; lane++) {
@@ -84,7 +84,7 @@ static void look(const LineSearch *search, const Line *line, double from, double
     level_lanes(search->field, p, s);
 }
 
-static void add(Found *found, const LanePlace *p, int lane)
+static void add(LineExtremes *found, const LanePlace *p, int lane)
 {
     if (found->count == found->capacity) {
         const size_t capacity = found->capacity ? 2 * found->capacity : 2 * A_RANGE;
@@ -102,8 +102,8 @@ static void add(Found *found, const LanePlace *p, int lane)
 }
 
 /* Refines a crossing between `from` and `from` + apart: by a factor of nine per round. */
-static void refine(const LineSearch *search, const Line *line, double from, double apart, bool inside,
-                   Found *found)
+static void refine(const LineSearch *search, const SearchLine *line, double from, double apart, bool inside,
+                   LineExtremes *found)
 {
     const float level = (float)search->level;
     LanePlace p;
@@ -122,7 +122,7 @@ static void refine(const LineSearch *search, const Line *line, double from, doub
         found->flat++;
 }
 
-static bool note_value(Found *found, const LanePlace *p, const LaneSample *s, int lane)
+static bool note_value(LineExtremes *found, const LanePlace *p, const LaneSample *s, int lane)
 {
     if (!isfinite(s->value[lane])) {
         if (!found->no_number)
@@ -136,29 +136,29 @@ static bool note_value(Found *found, const LanePlace *p, const LaneSample *s, in
 }
 
 /* The last sample of a line. */
-typedef struct Seen {
+typedef struct FieldSample {
     bool inside;
     double value, slope; /* value's unit per m, along the line */
-} Seen;
+} FieldSample;
 
-static Seen seen(const LineSearch *search, const Line *line, const LaneSample *s, int lane)
+static FieldSample seen(const LineSearch *search, const SearchLine *line, const LaneSample *s, int lane)
 {
-    return (Seen){s->value[lane] >= (float)search->level, (double)s->value[lane],
-                  (double)s->x[lane] * line->along[0] + (double)s->y[lane] * line->along[1] +
-                      (double)s->z[lane] * line->along[2]};
+    return (FieldSample){s->value[lane] >= (float)search->level, (double)s->value[lane],
+                         (double)s->x[lane] * line->along[0] + (double)s->y[lane] * line->along[1] +
+                             (double)s->z[lane] * line->along[2]};
 }
 
 /* True if the line may have crossed the level and come back: extrapolated by their slopes, both ends reach
    the level. */
-static bool may_graze(const LineSearch *search, const Seen *a, const Seen *b, double apart)
+static bool may_graze(const LineSearch *search, const FieldSample *a, const FieldSample *b, double apart)
 {
     const double side = a->inside ? -1 : 1, level = side * search->level;
     return side * a->slope > 0 && side * b->slope < 0 && side * (a->value + apart * a->slope) > level &&
            side * (b->value - apart * b->slope) > level;
 }
 
-static void look_closer(const LineSearch *search, const Line *line, double from, double apart, bool inside,
-                        Found *found)
+static void look_closer(const LineSearch *search, const SearchLine *line, double from, double apart,
+                        bool inside, LineExtremes *found)
 {
     LanePlace p;
     LaneSample s;
@@ -174,7 +174,7 @@ static void look_closer(const LineSearch *search, const Line *line, double from,
 }
 
 /* Length of a line in steps of the field, with each axis's own step. */
-static double steps_along(const LineSearch *search, const Line *line)
+static double steps_along(const LineSearch *search, const SearchLine *line)
 {
     double square = 0;
     for (int k = 0; k < 3; k++)
@@ -182,17 +182,17 @@ static double steps_along(const LineSearch *search, const Line *line)
     return line->length * sqrt(square);
 }
 
-static void follow(const LineSearch *search, const Line *line, Found *found)
+static void follow(const LineSearch *search, const SearchLine *line, LineExtremes *found)
 {
     const int pieces = (int)ceil(steps_along(search, line)) + 1;
     const double apart = line->length / pieces;
-    Seen last = {0};
+    FieldSample last = {0};
     for (int i = 0; i <= pieces; i += LANES) {
         LanePlace p;
         LaneSample s;
         look(search, line, i * apart, apart, &p, &s);
         for (int lane = 0; lane < LANES && i + lane <= pieces; lane++) {
-            const Seen here = seen(search, line, &s, lane);
+            const FieldSample here = seen(search, line, &s, lane);
             const double from = (i + lane - 1) * apart;
             if (!note_value(found, &p, &s, lane))
                 return;
@@ -207,19 +207,20 @@ static void follow(const LineSearch *search, const Line *line, Found *found)
 
 static void follow_range(void *context, size_t begin, size_t end)
 {
-    const Lines *lines = context;
-    Found *found = &lines->found[begin / A_RANGE];
+    const LineSearchJob *lines = context;
+    LineExtremes *found = &lines->found[begin / A_RANGE];
     found->least = HUGE_VAL;
     found->most = -HUGE_VAL;
     for (size_t i = begin; i < end && !found->no_number && !found->no_memory; i++) {
-        const Line line = line_of(lines, lines->first + i);
+        const SearchLine line = line_of(lines, lines->first + i);
         if (line.length > 0)
             follow(lines->search, &line, found);
     }
 }
 
 /* Appends the results of the ranges, in order, and sums up the figures. */
-static bool gather(const Found *found, size_t ranges, Crossings *crossings, Found *all, Error *error)
+static bool gather(const LineExtremes *found, size_t ranges, Crossings *crossings, LineExtremes *all,
+                   Error *error)
 {
     size_t count = crossings->count;
     for (size_t r = 0; r < ranges; r++) {
@@ -248,7 +249,8 @@ static bool gather(const Found *found, size_t ranges, Crossings *crossings, Foun
     return true;
 }
 
-static bool more_lines(Lines *lines, size_t count, Crossings *crossings, Found *all, Error *error)
+static bool more_lines(LineSearchJob *lines, size_t count, Crossings *crossings, LineExtremes *all,
+                       Error *error)
 {
     const size_t ranges = (count + A_RANGE - 1) / A_RANGE;
     lines->first = crossings->lines;
@@ -265,7 +267,7 @@ static bool more_lines(Lines *lines, size_t count, Crossings *crossings, Found *
 }
 
 /* The reason for an empty result. */
-static bool none(const LineSearch *search, const Found *all, size_t lines, Error *error)
+static bool none(const LineSearch *search, const LineExtremes *all, size_t lines, Error *error)
 {
     const double level = search->level, slack = 1e-3 * (all->most - all->least);
     if (all->flat > 0)
@@ -287,7 +289,7 @@ static bool none(const LineSearch *search, const Found *all, size_t lines, Error
                      lines);
 }
 
-static void measure(const Lines *lines, Crossings *crossings)
+static void measure(const LineSearchJob *lines, Crossings *crossings)
 {
     const double faces = 2 * (lines->face[0] + lines->face[1] + lines->face[2]);
     crossings->area = 0.5 * faces * (double)crossings->count / (double)crossings->lines;
@@ -301,9 +303,9 @@ static void measure(const Lines *lines, Crossings *crossings)
     }
 }
 
-static Lines lines_of(const LineSearch *search)
+static LineSearchJob lines_of(const LineSearch *search)
 {
-    Lines lines = {.search = search};
+    LineSearchJob lines = {.search = search};
     uint32_t word[4] = {0, 0, 0, PHILOX_LINES};
     philox(search->key, word);
     for (int k = 0; k < 4; k++)
@@ -330,7 +332,7 @@ static bool can_be_followed(const LineSearch *search, Error *error)
 }
 
 /* In batches: a finely folded surface has enough crossings after a few lines. */
-static bool first_lines(Lines *lines, Crossings *crossings, Found *all, Error *error)
+static bool first_lines(LineSearchJob *lines, Crossings *crossings, LineExtremes *all, Error *error)
 {
     bool ok = true;
     while (ok && crossings->lines < FIRST_LINES && crossings->count < enough)
@@ -340,8 +342,8 @@ static bool first_lines(Lines *lines, Crossings *crossings, Found *all, Error *e
 
 bool lines_cross(const LineSearch *search, Crossings *crossings, Error *error)
 {
-    Lines lines = lines_of(search);
-    Found all = {.least = HUGE_VAL, .most = -HUGE_VAL};
+    LineSearchJob lines = lines_of(search);
+    LineExtremes all = {.least = HUGE_VAL, .most = -HUGE_VAL};
     *crossings = (Crossings){0};
     if (!can_be_followed(search, error))
         return false;
@@ -360,8 +362,8 @@ bool lines_cross(const LineSearch *search, Crossings *crossings, Error *error)
 
 bool lines_more(const LineSearch *search, size_t wanted, Crossings *crossings, Error *error)
 {
-    Lines lines = lines_of(search);
-    Found all = {.least = HUGE_VAL, .most = -HUGE_VAL};
+    LineSearchJob lines = lines_of(search);
+    LineExtremes all = {.least = HUGE_VAL, .most = -HUGE_VAL};
     if (crossings->count >= wanted)
         return true;
     const double found = (double)crossings->count, more = 1.02 * ((double)wanted - found) / found;

@@ -1,6 +1,6 @@
-#include "sim/base/parallel.h"
-#include "sim/points/level_kind.h"
-#include "sim/points/sampling.h"
+#include "sim/points/points.h"
+
+#include "sim/base/base.h"
 #include "sim/points/walk.h"
 
 #include <math.h>
@@ -22,18 +22,18 @@ typedef struct NearWalk {
 /* ---- starts of walkers ---- */
 
 /* Moves eight walkers to the level by Newton's method; a walker without success gets NaN as position. */
-LANES_INLINE void seat_eight(const NearWalk *near, size_t w)
+SIMD_INLINE void seat_eight(const NearWalk *near, size_t w)
 {
     float *const *column = near->walkers.place;
-    LanePlace p = {lanes_from(column[0] + w), lanes_from(column[1] + w), lanes_from(column[2] + w)};
+    LanePlace p = {f8_load(column[0] + w), f8_load(column[1] + w), f8_load(column[2] + w)};
     const LanePlace from = p;
     LaneSample s;
-    const LaneMask found = lane_newton(&near->walk, near->request->field->kind->at[lanes_wide()], &p, &s) &
-                           lane_near(&near->walk, &p, &from);
-    const Lanes nowhere = lanes(NAN);
-    lanes_to(column[0] + w, lanes_select(found, p.x, nowhere));
-    lanes_to(column[1] + w, lanes_select(found, p.y, nowhere));
-    lanes_to(column[2] + w, lanes_select(found, p.z, nowhere));
+    const i8 found = lane_newton(&near->walk, near->request->field->kind->at[simd_wide()], &p, &s) &
+                     lane_near(&near->walk, &p, &from);
+    const f8 nowhere = f8_splat(NAN);
+    f8_store(column[0] + w, f8_select(found, p.x, nowhere));
+    f8_store(column[1] + w, f8_select(found, p.y, nowhere));
+    f8_store(column[2] + w, f8_select(found, p.z, nowhere));
 }
 
 static void seat_range(void *context, size_t begin, size_t end)
@@ -108,7 +108,7 @@ static void set_walk(NearWalk *near, const Polygons *polygons)
 static void walk_range(void *context, size_t begin_at, size_t end)
 {
     const NearWalk *near = context;
-    near->request->field->kind->walk[lanes_wide()](&near->walk, begin_at * LANES, end * LANES);
+    near->request->field->kind->walk[simd_wide()](&near->walk, begin_at * LANES, end * LANES);
 }
 
 /* Drops points of walkers without a start, and surplus points from rounding up. Returns the number of

@@ -1,16 +1,19 @@
-/* A scalar field whose levels are surfaces: the field to sample or to colour points by. Made by the
-   functions of its kind (sim/points/fields.h), constant afterwards, readable by many
-   threads at once. */
+/* Points on surfaces, for the view pbsr: fields, points and requests as data, the kinds of fields, and the
+   samplers. */
 #ifndef SIM_POINTS_POINTS_H
 #define SIM_POINTS_POINTS_H
 
 #include "slosh/error.h"
+#include "slosh/mesh.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
-typedef struct LevelKind LevelKind; /* functions of the kind: sim/points/level_kind.h */
+/* A scalar field whose levels are surfaces: the field to sample or to colour points by. Made by the
+   functions of its kind, constant afterwards, readable by many threads at once. */
+
+typedef struct LevelKind LevelKind; /* functions of the kind: sim/points/walk.h */
 
 typedef struct LevelField {
     const LevelKind *kind;
@@ -72,9 +75,9 @@ void surface_points_free(SurfacePoints *points); /* a zeroed struct is allowed *
 uint32_t surface_normal_pack(const float normal[3]);
 void surface_normal_unpack(uint32_t packed, float normal[3]);
 
-/* Requests of views to a sampler, and results: see sampling.h. */
+/* Requests of views to a sampler, and results. */
 
-typedef struct SurfaceDevice SurfaceDevice; /* sim/points/sampling.h */
+typedef struct SurfaceDevice SurfaceDevice; /* below */
 
 typedef enum SurfaceSampler { SURFACE_WALK, SURFACE_TRIANGLES, SURFACE_SAMPLERS } SurfaceSampler;
 
@@ -155,5 +158,158 @@ double polygons_area(const Polygons *polygons); /* m2 */
    false if the total area of the triangles is 0. */
 bool polygons_sample(const Polygons *polygons, const SurfaceRequest *request, SurfacePoints *points,
                      SurfaceResult *result, Error *error);
+
+/* Surfaces given by formulas. Values are positive inside; level 0 is the named surface, and further levels
+   surround it. Lengths in m, in the box's frame. */
+
+/* radius - |x - centre|. Bounds: 1.1 times the sphere. */
+LevelField level_sphere(const double centre[3], double radius);
+
+/* tube minus the distance from a ring about the y axis through `centre`. Bounds: 1.1 times the torus. */
+LevelField level_torus(const double centre[3], double ring, double tube);
+
+/* sin X cos Y + sin Y cos Z + sin Z cos X with X = 2 pi x / period: half the space at level 0; -1.5 .. 1.5.
+   After: A. Schoen, "Infinite periodic minimal surfaces without self-intersections", 1970, its first
+   approximation. */
+LevelField level_gyroid(const double low[3], const double high[3], double period);
+
+/* height + amplitude cos(2 pi x / period) cos(2 pi z / period) - y: an open surface. */
+LevelField level_wave(const double low[3], const double high[3], double height, double amplitude,
+                      double period);
+
+/* For tests: (x - point) . normal, with the normal scaled to length 1: a slice, to colour by a second field.
+ */
+LevelField level_plane(const double low[3], const double high[3], const double point[3],
+                       const double normal[3]);
+
+/* The particles' field itself, summed over the neighbours of each position: F(r) = sum V_j W_poly6(|r -
+   r_j|, h), and a carried scalar, sum V s W / sum V W. Equal to field_at of include/slosh/mesh.h, which sums
+   over all particles. */
+
+typedef struct SphField SphField; /* the particles, sorted by cell */
+
+/* Copies the particles, without particles whose position, volume or scalar is not finite. Returns NULL if
+   none is left, h is not above 0, or memory is short. */
+SphField *sph_field_create(const FieldParticles *particles, Error *error);
+
+void sph_field_destroy(SphField *field); /* NULL is allowed */
+
+/* F: about 1 inside, 0.5 at the surface, 0 farther than h from any particle. `from` must outlive the fields.
+ */
+LevelField level_sph(const SphField *from);
+
+/* The scalar, without a gradient for F below 0.5: walks on its levels stay inside the fluid. */
+LevelField level_sph_inside(const SphField *from);
+
+/* For tests: the scalar; 0 without a particle within h. The particles must have a scalar. */
+LevelField level_sph_scalar(const SphField *from);
+
+/* Values on a grid as a field: volume data, or the fluid's field of include/slosh/mesh.h. */
+
+/* Owned by the caller, with its values; must outlive all fields made of it. */
+typedef struct VolumeData {
+    int size[3];        /* values, each at least 2 */
+    double corner[3];   /* m, the box's frame: position of the first value */
+    double spacing[3];  /* m: between values */
+    const float *value; /* at i + size[0] (j + size[1] k) */
+} VolumeData;
+
+/* Volume data of values at cell centres of a grid. */
+VolumeData volume_of_grid(const VolumeGrid *grid, const float *value);
+
+typedef enum VolumeInterpolation {
+    VOLUME_TRILINEAR,   /* continuous, with edges between cells */
+    VOLUME_CATMULL_ROM, /* once differentiable, through the values. After: E. Catmull, R. Rom, "A class of
+                           local interpolating splines", 1974; the outermost values count twice at the border
+                         */
+    VOLUME_INTERPOLATIONS
+} VolumeInterpolation;
+
+/* "trilinear", "catmull_rom"; NULL past the last. */
+const char *volume_interpolation_name(VolumeInterpolation interpolation);
+
+/* Makes a field from the first value to the last. Returns false if values are not finite, with their count
+   and first position, or if the grid is invalid. */
+bool level_volume(const VolumeData *volume, VolumeInterpolation interpolation, LevelField *field,
+                  Error *error);
+
+/* Volume data with the range of the values, as handed over by file readers. */
+
+/* Constant; must outlive all readers. */
+typedef struct RangedVolume {
+    VolumeData volume;
+    float low, high; /* least and greatest finite value; both 0: none */
+} RangedVolume;
+
+/* Points of uniform density on a level of a field, as many as an opacity needs.
+
+   SURFACE_WALK: many walkers in Brownian motion on the surface by a stochastic differential equation.
+   After: S. Tanaka et al., "Particle-based transparent rendering of implicit surfaces and its application
+   to fused visualization", 2012, eq. 2, 3. Walkers begin at crossings of the surface with straight lines of
+   all directions, so starts are uniform and on every part of the surface found by such lines. Counting
+   spheres determine the end.
+
+   SURFACE_TRIANGLES: points on triangles from marching cubes, with a random triangle by area for each
+   point: faster and less exact.
+
+   The points depend on the request alone, neither on the number of threads nor on the processor. */
+
+/* Appends to `points`, whose capacity is kept between calls. Returns false, with the points unchanged, if
+   the level is empty, out of the field's range, touched but never crossed or without a gradient. If the
+   field is not finite, the request invalid, or memory short. A density not reached is no error: see
+   `result` and `lack`. */
+bool surface_sample(const SurfaceRequest *request, SurfacePoints *points, SurfaceResult *result,
+                    Error *error);
+
+/* "walk", "triangles"; NULL past the last. */
+const char *surface_sampler_name(SurfaceSampler sampler);
+
+/* The sampler SURFACE_TRIANGLES. After: S. Tanaka et al., "Particle-based transparent rendering of implicit
+   surfaces", 2012, section 5: marching cubes, then a random triangle by area for each point. */
+
+typedef struct LineSearch LineSearch; /* sim/points/walk.h */
+
+bool triangles_sample(const SurfaceRequest *request, const LineSearch *search, SurfacePoints *points,
+                      SurfaceResult *result, Error *error);
+
+/* The grid of marching cubes: values per axis and cell size, m, at least `times` the field's march. Returns
+   the used factor, enlarged if there would be too many values for memory; cells named in the request are
+   kept. */
+double triangles_grid(const SurfaceRequest *request, double times, int size[3], double cell[3]);
+
+/* The Brownian walk of walk.h for fields that are costly to sample and change with each picture. Walkers
+   begin on triangles near the level instead of at crossings of lines, so neither lines nor counting spheres
+   cost samples. The starts are uniform, as random points by area, and moved to the level by Newton's
+   method. */
+
+/* As surface_sample, with `near`: triangles within a step of the level, as from marching cubes. Used
+   members of the request: `field`, `level`, `density`, `sets`, `seed`, `surface`, `threads`, `points_most`,
+   `pixel` and `step`. The area is the triangles' area. Triangles without the level within six steps do not
+   belong to the surface: `result->stayed` counts walkers with a start there, which give no points. Returns
+   false, with the points unchanged, if no triangle is near the level or memory is short. */
+bool near_walk(const SurfaceRequest *request, const Polygons *near, SurfacePoints *points,
+               SurfaceResult *result, Error *error);
+
+/* A device that runs a walk's steps and colours its points instead of the CPU's threads: sim/gpu/surface.
+   Seeds, counting spheres and the end of sampling stay on the CPU. */
+
+typedef struct Walk Walk;         /* sim/points/walk.h */
+typedef struct Counting Counting; /* sim/points/walk.h */
+
+/* Functions return false with an error if the device cannot take the field or the memory; call `end` in any
+   case. */
+struct SurfaceDevice {
+    void *own;
+    /* Takes field, walkers and spheres for about `points` points. */
+    bool (*begin)(void *own, const Walk *walk, const Counting *counting, size_t points, Error *error);
+    /* Runs the walk's next steps. Appends the points in the order of Walk.out and adds to the counting
+       spheres' `inside`. Without `keep` the points are dropped. */
+    bool (*steps)(void *own, const Walk *walk, bool keep, Counting *counting, Error *error);
+    bool (*colour)(void *own, const LevelField *field, Error *error);
+    /* Copies the first `count` points to `out`; if `out` is NULL the points stay on the device. */
+    bool (*points)(void *own, size_t count, SurfacePoint *out, Error *error);
+    size_t (*taken)(void *own); /* accepted steps of all walkers */
+    void (*end)(void *own);
+};
 
 #endif

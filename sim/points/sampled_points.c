@@ -1,4 +1,4 @@
-#include "sim/points/level_kind.h"
+#include "sim/points/walk.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -156,7 +156,7 @@ void level_parts(const LevelField *field, LevelParts *out)
 
 void level_at(const LevelField *field, const double place[3], LevelSample *out)
 {
-    const LanePlace p = {lanes((float)place[0]), lanes((float)place[1]), lanes((float)place[2])};
+    const LanePlace p = {f8_splat((float)place[0]), f8_splat((float)place[1]), f8_splat((float)place[2])};
     LaneSample s;
     level_lanes(field, &p, &s);
     *out = (LevelSample){s.value[0], {s.x[0], s.y[0], s.z[0]}, s.bend[0]};

@@ -1,7 +1,6 @@
-#include "sim/points/sampling.h"
-#include "sim/points/level_kind.h"
+#include "sim/points/points.h"
 
-#include "sim/base/parallel.h"
+#include "sim/base/base.h"
 #include "sim/points/walk.h"
 
 #include <math.h>
@@ -100,7 +99,7 @@ static void set_walk(Sampling *sampling)
         sampling->walk.low[k] = (float)sampling->search.low[k];
         sampling->walk.high[k] = (float)sampling->search.high[k];
     }
-    sampling->run = request->field->kind->walk[lanes_wide()];
+    sampling->run = request->field->kind->walk[simd_wide()];
 }
 
 static void run_range(void *context, size_t begin, size_t end)
@@ -186,8 +185,8 @@ static bool keep_points(const SurfaceRequest *request, size_t kept, SurfacePoint
     return true;
 }
 
-/* n of `made` points. The spheres are wrong by factors in three cases: a finely folded surface has several
-   sheets in a sphere, the chosen spheres are those with few points, or walkers begin at the centres of
+/* n of `made` points. The spheres are wrong by factors in three cases. A finely folded surface has several
+   sheets in a sphere; the chosen spheres are those with few points, or walkers begin at the centres of
    spheres for lack of further crossings. The area from lines is independent of these errors, and accurate
    to some hundredths. */
 static double count_in_circle(const Sampling *sampling, double great_circle, size_t made)

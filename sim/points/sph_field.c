@@ -1,5 +1,6 @@
+#include "sim/points/points.h"
+
 #include "sim/kernel/kernel.h"
-#include "sim/points/fields.h"
 #include "sim/points/walk.h"
 
 #include <math.h>
@@ -12,7 +13,7 @@ static const double step = 0.15;         /* of h: 30 % of the particle spacing, 
 static const float FLUID_LEAST = 0.5F; /* F at the fluid's surface */
 
 struct SphField {
-    size_t count, room;
+    size_t count, capacity;
     float *column[5]; /* x, y, z (m), V (m3), V s, by cell, with stride `room`; readable for LANES - 1
                          entries past the last */
     double low[3], high[3], cell, support; /* m: bounds of the particles; cell size, at least the support */
@@ -25,21 +26,19 @@ struct SphField {
 /* Sums of V W with W = C t^3, t = 1 - r^2 / h^2, per lane. Powers of t, without the common factors of
    derivatives: grad = -6 C / h^2 t^2 x, H = -6 C / h^2 (t^2 - 4 t x x / h^2). */
 typedef struct SphSum {
-    Lanes value, squares, slope[3], straight[3], across[3]; /* t^3; t^2; t^2 x; t x x; t x y, t y z, t z x */
+    f8 value, squares, slope[3], straight[3], across[3]; /* t^3; t^2; t^2 x; t x x; t x y, t y z, t z x */
 } SphSum;
 
-LANES_INLINE void add_eight(const SphField *sph, const float *weight, size_t i, size_t end, const float p[3],
-                            SphSum *sum)
+SIMD_INLINE void add_eight(const SphField *sph, const float *weight, size_t i, size_t end, const float p[3],
+                           SphSum *sum)
 {
-    const LaneMask index = {0, 1, 2, 3, 4, 5, 6, 7};
-    const Lanes one = lanes(1), square = lanes((float)(1 / (sph->support * sph->support)));
-    const Lanes x = lanes(p[0]) - lanes_from(sph->column[0] + i),
-                y = lanes(p[1]) - lanes_from(sph->column[1] + i);
-    const Lanes z = lanes(p[2]) - lanes_from(sph->column[2] + i),
-                left = one - (x * x + y * y + z * z) * square;
-    const LaneMask near = (left > lanes(0)) & (index < (int32_t)(end - i < LANES ? end - i : LANES));
-    const Lanes t = lanes_select(near, left, lanes(0));
-    const Lanes v = lanes_select(near, lanes_from(weight + i), lanes(0)), once = v * t, twice = once * t;
+    const f8 one = f8_splat(1), square = f8_splat((float)(1 / (sph->support * sph->support)));
+    const f8 x = f8_splat(p[0]) - f8_load(sph->column[0] + i),
+             y = f8_splat(p[1]) - f8_load(sph->column[1] + i);
+    const f8 z = f8_splat(p[2]) - f8_load(sph->column[2] + i), left = one - (x * x + y * y + z * z) * square;
+    const i8 near = (left > f8_splat(0)) & (lane_index < (int32_t)(end - i < LANES ? end - i : LANES));
+    const f8 t = f8_select(near, left, f8_splat(0));
+    const f8 v = f8_select(near, f8_load(weight + i), f8_splat(0)), once = v * t, twice = once * t;
     sum->value += twice * t;
     sum->squares += twice;
     sum->slope[0] += twice * x;
@@ -60,8 +59,8 @@ static int cell_along(const SphField *sph, int axis, double x)
 }
 
 /* The particles in up to three adjacent cells along x, which are contiguous. */
-LANES_INLINE void add_row(const SphField *sph, const float *weight, const int from[3], const int to[3], int y,
-                          int z, const float p[3], SphSum *sum)
+SIMD_INLINE void add_row(const SphField *sph, const float *weight, const int from[3], const int to[3], int y,
+                         int z, const float p[3], SphSum *sum)
 {
     const size_t row = (size_t)sph->size[0] * ((size_t)y + (size_t)sph->size[1] * (size_t)z);
     const size_t end = sph->begin[row + (size_t)to[0] + 1];
@@ -69,7 +68,7 @@ LANES_INLINE void add_row(const SphField *sph, const float *weight, const int fr
         add_eight(sph, weight, i, end, p, sum);
 }
 
-LANES_INLINE void sum_about(const SphField *sph, const float *weight, const float p[3], SphSum *sum)
+SIMD_INLINE void sum_about(const SphField *sph, const float *weight, const float p[3], SphSum *sum)
 {
     int from[3], to[3];
     memset(sum, 0, sizeof *sum);
@@ -85,7 +84,7 @@ LANES_INLINE void sum_about(const SphField *sph, const float *weight, const floa
             add_row(sph, weight, from, to, y, z, p, sum);
 }
 
-LANES_INLINE float total(Lanes a)
+SIMD_INLINE float total(f8 a)
 {
     return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
 }
@@ -93,10 +92,10 @@ LANES_INLINE float total(Lanes a)
 /* Sums at eight positions, with factors: value, slope, second derivatives. */
 typedef struct SphLanes {
     LaneSample s;
-    Lanes straight[3], across[3];
+    f8 straight[3], across[3];
 } SphLanes;
 
-LANES_INLINE void sum_lanes(const SphField *sph, const float *weight, const LanePlace *p, SphLanes *out)
+SIMD_INLINE void sum_lanes(const SphField *sph, const float *weight, const LanePlace *p, SphLanes *out)
 {
     const float most = (float)kernel_poly6(0, sph->support),
                 square = (float)(1 / (sph->support * sph->support));
@@ -116,7 +115,7 @@ LANES_INLINE void sum_lanes(const SphField *sph, const float *weight, const Lane
     }
 }
 
-LANES_INLINE void sph_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+SIMD_INLINE void sph_at(const LevelField *field, const LanePlace *p, LaneSample *out)
 {
     const SphField *sph = field->own;
     SphLanes sum;
@@ -127,46 +126,46 @@ LANES_INLINE void sph_at(const LevelField *field, const LanePlace *p, LaneSample
 
 /* Returns F. s = A / F: grad s = (grad A - s grad F) / F; H s = (H A - s H F - grad s grad F - grad F grad s)
  * / F. */
-LANES_INLINE Lanes scalar_and_fluid(const SphField *sph, const LanePlace *p, LaneSample *out)
+SIMD_INLINE f8 scalar_and_fluid(const SphField *sph, const LanePlace *p, LaneSample *out)
 {
     SphLanes f, a;
     sum_lanes(sph, sph->column[3], p, &f);
     sum_lanes(sph, sph->column[4], p, &a);
-    const LaneMask any = f.s.value > lanes(0);
-    const Lanes none = lanes(0), inverse = lanes_select(any, lanes(1) / f.s.value, none),
-                s = a.s.value * inverse;
+    const i8 any = f.s.value > f8_splat(0);
+    const f8 none = f8_splat(0), inverse = f8_select(any, f8_splat(1) / f.s.value, none),
+             s = a.s.value * inverse;
     *out = (LaneSample){s, (a.s.x - s * f.s.x) * inverse, (a.s.y - s * f.s.y) * inverse,
                         (a.s.z - s * f.s.z) * inverse, none};
-    const Lanes g[3] = {out->x, out->y, out->z}, h[3] = {f.s.x, f.s.y, f.s.z};
-    Lanes straight[3], across[3];
+    const f8 g[3] = {out->x, out->y, out->z}, h[3] = {f.s.x, f.s.y, f.s.z};
+    f8 straight[3], across[3];
     for (int k = 0; k < 3; k++) {
         const int l = (k + 1) % 3;
-        straight[k] = (a.straight[k] - s * f.straight[k] - lanes(2) * g[k] * h[k]) * inverse;
+        straight[k] = (a.straight[k] - s * f.straight[k] - f8_splat(2) * g[k] * h[k]) * inverse;
         across[k] = (a.across[k] - s * f.across[k] - g[k] * h[l] - g[l] * h[k]) * inverse;
     }
     out->bend = lane_bend(out, straight, across);
     return f.s.value;
 }
 
-LANES_INLINE void sph_scalar_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+SIMD_INLINE void sph_scalar_at(const LevelField *field, const LanePlace *p, LaneSample *out)
 {
     (void)scalar_and_fluid(field->own, p, out);
 }
 
-LANES_INLINE void sph_inside_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+SIMD_INLINE void sph_inside_at(const LevelField *field, const LanePlace *p, LaneSample *out)
 {
-    const Lanes none = lanes(0);
-    const LaneMask inside = scalar_and_fluid(field->own, p, out) >= lanes(FLUID_LEAST);
-    out->x = lanes_select(inside, out->x, none);
-    out->y = lanes_select(inside, out->y, none);
-    out->z = lanes_select(inside, out->z, none);
+    const f8 none = f8_splat(0);
+    const i8 inside = scalar_and_fluid(field->own, p, out) >= f8_splat(FLUID_LEAST);
+    out->x = f8_select(inside, out->x, none);
+    out->y = f8_select(inside, out->y, none);
+    out->z = f8_select(inside, out->z, none);
 }
 
 /* Data for shaders/surface/sph_sum.glsl. */
 static void sph_parts(const LevelField *field, LevelParts *out)
 {
     const SphField *sph = field->own;
-    const uint32_t column = (uint32_t)sph->room;
+    const uint32_t column = (uint32_t)sph->capacity;
     size_t cells = 1;
     for (int k = 0; k < 3; k++) {
         out->number[k] = (float)sph->low[k];
@@ -178,7 +177,7 @@ static void sph_parts(const LevelField *field, LevelParts *out)
     out->number[8] = (float)kernel_poly6(0, sph->support);
     memcpy(&out->number[9], &column, sizeof column);
     out->array[0].data = sph->column[0];
-    out->array[0].bytes = 5 * sph->room * sizeof(float);
+    out->array[0].bytes = 5 * sph->capacity * sizeof(float);
     out->array[1].data = sph->begin;
     out->array[1].bytes = (cells + 1) * sizeof *sph->begin;
 }
@@ -263,7 +262,7 @@ SphField *sph_field_create(const FieldParticles *particles, Error *error)
         sph->support = particles->support;
         cells = set_cells(sph);
         sph->column[0] = columns;
-        sph->room = particles->count + LANES;
+        sph->capacity = particles->count + LANES;
         sph->begin = calloc(cells + 1, sizeof *sph->begin);
     }
     if (!sph || !columns || !sph->begin) {
@@ -274,7 +273,7 @@ SphField *sph_field_create(const FieldParticles *particles, Error *error)
         return NULL;
     }
     for (size_t k = 1; k < 5; k++)
-        sph->column[k] = columns + k * sph->room;
+        sph->column[k] = columns + k * sph->capacity;
     sort(sph, cells, particles);
     return sph;
 }

@@ -1,7 +1,7 @@
-#include "sim/points/level_kind.h"
+#include "sim/points/points.h"
 
-#include "sim/base/parallel.h"
-#include "sim/points/sampling.h"
+#include "sim/base/base.h"
+#include "sim/points/walk.h"
 #include "slosh/mesh.h"
 
 #include <math.h>
@@ -25,14 +25,14 @@ typedef struct Grid {
 } Grid;
 
 /* The triangles inside the bounds. */
-typedef struct Triangles {
+typedef struct TriangleSampling {
     size_t count, vertices;
     uint32_t (*corner)[3];
     float (*place)[3], (*normal)[3]; /* m; unit, of the vertices */
     double *area;                    /* m2 */
     float *own; /* alias table: probability to keep the drawn triangle; otherwise take `other` */
     uint32_t *other;
-} Triangles;
+} TriangleSampling;
 
 /* ---- the mesh ---- */
 
@@ -44,8 +44,8 @@ static void fill_rows(void *context, size_t begin, size_t end)
     const size_t width = (size_t)grid->size[0], height = (size_t)grid->size[1];
     for (size_t row = begin; row < end; row++) {
         const size_t j = row % height, k = row / height;
-        LanePlace p = {.y = lanes((float)(low[1] + ((double)j - 1) * grid->cell[1])),
-                       .z = lanes((float)(low[2] + ((double)k - 1) * grid->cell[2]))};
+        LanePlace p = {.y = f8_splat((float)(low[1] + ((double)j - 1) * grid->cell[1])),
+                       .z = f8_splat((float)(low[2] + ((double)k - 1) * grid->cell[2]))};
         for (size_t i = 0; i < width; i += LANES) {
             LaneSample s;
             const size_t count = width - i < LANES ? width - i : LANES;
@@ -168,7 +168,7 @@ static bool kept(const uint8_t *inside, const uint32_t corner[3])
     return inside[corner[0]] && inside[corner[1]] && inside[corner[2]];
 }
 
-static double area_of(const Triangles *t, const uint32_t corner[3])
+static double area_of(const TriangleSampling *t, const uint32_t corner[3])
 {
     double u[3], v[3];
     for (int k = 0; k < 3; k++) {
@@ -180,7 +180,7 @@ static double area_of(const Triangles *t, const uint32_t corner[3])
 }
 
 /* Sets positions and normals; inside[i]: 1 if vertex i is within the bounds and not on the closing part. */
-static void set_vertices(const Grid *grid, const IsoMesh *mesh, Triangles *t, uint8_t *inside)
+static void set_vertices(const Grid *grid, const IsoMesh *mesh, TriangleSampling *t, uint8_t *inside)
 {
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         double place[3];
@@ -195,7 +195,7 @@ static void set_vertices(const Grid *grid, const IsoMesh *mesh, Triangles *t, ui
     }
 }
 
-static double set_triangles(const IsoMesh *mesh, Triangles *t, const uint8_t *inside)
+static double set_triangles(const IsoMesh *mesh, TriangleSampling *t, const uint8_t *inside)
 {
     double sum = 0;
     for (size_t i = 0; i < mesh->triangle_count; i++) {
@@ -207,7 +207,7 @@ static double set_triangles(const IsoMesh *mesh, Triangles *t, const uint8_t *in
     return sum;
 }
 
-static bool reserve(Triangles *t, const IsoMesh *mesh, uint8_t **inside, Error *error)
+static bool reserve(TriangleSampling *t, const IsoMesh *mesh, uint8_t **inside, Error *error)
 {
     const size_t v = mesh->vertex_count + 1, n = mesh->triangle_count + 1;
     t->corner = malloc(n * sizeof *t->corner);
@@ -223,7 +223,7 @@ static bool reserve(Triangles *t, const IsoMesh *mesh, uint8_t **inside, Error *
     return false;
 }
 
-static void triangles_free(Triangles *t)
+static void triangles_free(TriangleSampling *t)
 {
     free(t->corner);
     free(t->place);
@@ -237,7 +237,7 @@ static void triangles_free(Triangles *t)
 
 /* Builds an alias table to draw triangles by area with a number and a comparison. After: M. Vose, "A linear
    algorithm for generating random numbers with a given distribution", 1991. Destroys `area`. */
-static bool make_alias(Triangles *t, double sum, Error *error)
+static bool make_alias(TriangleSampling *t, double sum, Error *error)
 {
     uint32_t *stack = malloc((t->count + 1) * sizeof *stack);
     size_t small = 0, large = t->count; /* small entries from below, large entries from above */
@@ -268,7 +268,7 @@ static bool make_alias(Triangles *t, double sum, Error *error)
 /* ---- points ---- */
 
 typedef struct Scatter {
-    const Triangles *triangles;
+    const TriangleSampling *triangles;
     const SurfaceRequest *request;
     PhiloxKey key;
     SurfacePoint *point;
@@ -278,7 +278,7 @@ typedef struct Scatter {
    1990. */
 static SurfacePoint point_on(const Scatter *scatter, uint32_t triangle, float u, float v)
 {
-    const Triangles *t = scatter->triangles;
+    const TriangleSampling *t = scatter->triangles;
     const uint32_t *corner = t->corner[triangle];
     const float root = sqrtf(u), share[3] = {1 - root, root * (1 - v), root * v};
     SurfacePoint point = {.surface = scatter->request->surface, .value = (float)scatter->request->level};
@@ -296,7 +296,7 @@ static SurfacePoint point_on(const Scatter *scatter, uint32_t triangle, float u,
 static void scatter_range(void *context, size_t begin, size_t end)
 {
     const Scatter *scatter = context;
-    const Triangles *t = scatter->triangles;
+    const TriangleSampling *t = scatter->triangles;
     for (size_t i = begin; i < end; i++) {
         uint32_t word[4] = {(uint32_t)i, (uint32_t)(i >> 32), 0, PHILOX_TRIANGLES};
         philox(scatter->key, word);
@@ -307,7 +307,7 @@ static void scatter_range(void *context, size_t begin, size_t end)
     }
 }
 
-static bool scatter_points(const SurfaceRequest *request, const LineSearch *search, const Triangles *t,
+static bool scatter_points(const SurfaceRequest *request, const LineSearch *search, const TriangleSampling *t,
                            double area, SurfacePoints *points, SurfaceResult *result, Error *error)
 {
     const double wanted = rint(request->density * request->sets * area);
@@ -330,7 +330,7 @@ static bool scatter_points(const SurfaceRequest *request, const LineSearch *sear
 static bool on_mesh(const SurfaceRequest *request, const Grid *grid, const IsoMesh *mesh,
                     SurfacePoints *points, SurfaceResult *result, Error *error)
 {
-    Triangles t = {0};
+    TriangleSampling t = {0};
     uint8_t *inside = NULL;
     bool ok = reserve(&t, mesh, &inside, error);
     if (ok) {
@@ -367,7 +367,7 @@ bool triangles_sample(const SurfaceRequest *request, const LineSearch *search, S
 /* ---- an existing mesh ---- */
 
 /* Borrows the arrays of a mesh and computes the areas. Returns the total area, m2. */
-static double take_polygons(Triangles *t, const Polygons *polygons)
+static double take_polygons(TriangleSampling *t, const Polygons *polygons)
 {
     double sum = 0;
     t->count = polygons->triangle_count;
@@ -381,7 +381,7 @@ static double take_polygons(Triangles *t, const Polygons *polygons)
 
 double polygons_area(const Polygons *polygons)
 {
-    const Triangles t = {.corner = polygons->corner, .place = polygons->place};
+    const TriangleSampling t = {.corner = polygons->corner, .place = polygons->place};
     double sum = 0;
     for (size_t i = 0; i < polygons->triangle_count; i++)
         sum += area_of(&t, t.corner[i]);
@@ -394,9 +394,9 @@ bool polygons_sample(const Polygons *polygons, const SurfaceRequest *request, Su
     const LineSearch search = {.key = philox_key(request->seed),
                                .threads = request->threads > 0 ? request->threads : parallel_processors()};
     const size_t n = polygons->triangle_count + 1;
-    Triangles t = {.area = malloc(n * sizeof *t.area),
-                   .own = malloc(n * sizeof *t.own),
-                   .other = malloc(n * sizeof *t.other)};
+    TriangleSampling t = {.area = malloc(n * sizeof *t.area),
+                          .own = malloc(n * sizeof *t.own),
+                          .other = malloc(n * sizeof *t.other)};
     *result = (SurfaceResult){0};
     bool ok = t.area && t.own && t.other;
     if (!ok)

@@ -1,4 +1,5 @@
-#include "sim/points/fields.h"
+#include "sim/points/points.h"
+
 #include "sim/points/walk.h"
 
 #include <math.h>
@@ -6,33 +7,33 @@
 static const double paper = 0.3; /* of a cell: sqrt(2 dt), Tanaka et al. 2012, section 4 */
 
 /* A position along an axis: index of the value before, and distance beyond, in cells. */
-typedef struct Between {
-    LaneMask first; /* 0 .. size - 2 */
-    Lanes part, inverse;
-} Between;
+typedef struct GridInterval {
+    i8 first; /* 0 .. size - 2 */
+    f8 part, inverse;
+} GridInterval;
 
-LANES_INLINE Between between(const VolumeData *volume, int axis, Lanes x)
+SIMD_INLINE GridInterval between(const VolumeData *volume, int axis, f8 x)
 {
-    const Lanes inverse = lanes((float)(1 / volume->spacing[axis]));
-    const Lanes at = (x - lanes((float)volume->corner[axis])) * inverse;
-    const Lanes bounded = lanes_least(lanes_most(at, lanes(0)), lanes((float)(volume->size[axis] - 2)));
-    const LaneMask first = lanes_whole(bounded);
-    return (Between){first, at - lanes_number(first), inverse};
+    const f8 inverse = f8_splat((float)(1 / volume->spacing[axis]));
+    const f8 at = (x - f8_splat((float)volume->corner[axis])) * inverse;
+    const f8 bounded = lesser(greater(at, f8_splat(0)), f8_splat((float)(volume->size[axis] - 2)));
+    const i8 first = f8_truncate(bounded);
+    return (GridInterval){first, at - f8_from(first), inverse};
 }
 
-LANES_INLINE const float *value_at(const VolumeData *volume, int x, int y, int z)
+SIMD_INLINE const float *value_at(const VolumeData *volume, int x, int y, int z)
 {
     return volume->value + (size_t)x +
            (size_t)volume->size[0] * ((size_t)y + (size_t)volume->size[1] * (size_t)z);
 }
 
-LANES_INLINE Lanes mixed(Lanes a, Lanes b, Lanes part)
+SIMD_INLINE f8 mixed(f8 a, f8 b, f8 part)
 {
     return a + part * (b - a);
 }
 
 /* The eight values around each position: [x + 2 y + 4 z]. */
-LANES_INLINE void corners(const VolumeData *volume, const Between at[3], Lanes value[8])
+SIMD_INLINE void corners(const VolumeData *volume, const GridInterval at[3], f8 value[8])
 {
     const size_t row = (size_t)volume->size[0], slice = row * (size_t)volume->size[1];
     for (int lane = 0; lane < LANES; lane++) {
@@ -48,40 +49,40 @@ LANES_INLINE void corners(const VolumeData *volume, const Between at[3], Lanes v
     }
 }
 
-LANES_INLINE void trilinear_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+SIMD_INLINE void trilinear_at(const LevelField *field, const LanePlace *p, LaneSample *out)
 {
     const VolumeData *volume = field->own;
-    const Between at[3] = {between(volume, 0, p->x), between(volume, 1, p->y), between(volume, 2, p->z)};
-    const Lanes x = at[0].part, y = at[1].part, z = at[2].part, none = lanes(0);
-    Lanes v[8], slope[4], middle[4];
+    const GridInterval at[3] = {between(volume, 0, p->x), between(volume, 1, p->y), between(volume, 2, p->z)};
+    const f8 x = at[0].part, y = at[1].part, z = at[2].part, none = f8_splat(0);
+    f8 v[8], slope[4], middle[4];
     corners(volume, at, v);
     for (int k = 0; k < 4; k++) {
         slope[k] = v[2 * k + 1] - v[2 * k];
         middle[k] = v[2 * k] + x * slope[k];
     }
-    const Lanes low = middle[1] - middle[0], high = middle[3] - middle[2];
+    const f8 low = middle[1] - middle[0], high = middle[3] - middle[2];
     *out = (LaneSample){mixed(mixed(middle[0], middle[1], y), mixed(middle[2], middle[3], y), z),
                         mixed(mixed(slope[0], slope[1], y), mixed(slope[2], slope[3], y), z) * at[0].inverse,
                         mixed(low, high, z) * at[1].inverse,
                         mixed(middle[2] - middle[0], middle[3] - middle[1], y) * at[2].inverse, none};
-    const Lanes straight[3] = {none, none, none};
-    const Lanes across[3] = {
-        mixed(slope[1] - slope[0], slope[3] - slope[2], z) * at[0].inverse * at[1].inverse,
-        (high - low) * at[1].inverse * at[2].inverse,
-        mixed(slope[2] - slope[0], slope[3] - slope[1], y) * at[2].inverse * at[0].inverse};
+    const f8 straight[3] = {none, none, none};
+    const f8 across[3] = {mixed(slope[1] - slope[0], slope[3] - slope[2], z) * at[0].inverse * at[1].inverse,
+                          (high - low) * at[1].inverse * at[2].inverse,
+                          mixed(slope[2] - slope[0], slope[3] - slope[1], y) * at[2].inverse * at[0].inverse};
     out->bend = lane_bend(out, straight, across);
 }
 
 /* Weights of the four values around a position, for value, slope and second derivative, per cell. */
 typedef struct Spline {
-    Lanes value[4], slope[4], bend[4];
+    f8 value[4], slope[4], bend[4];
 } Spline;
 
-LANES_INLINE Spline spline(Lanes part)
+SIMD_INLINE Spline spline(f8 part)
 {
-    const Lanes half = lanes(0.5F), one = lanes(1), two = lanes(2), three = lanes(3), four = lanes(4);
-    const Lanes five = lanes(5), eight = lanes(8), nine = lanes(9), ten = lanes(10);
-    const Lanes t = lanes_least(lanes_most(part, -half), one + half), t2 = t * t, t3 = t2 * t;
+    const f8 half = f8_splat(0.5F), one = f8_splat(1), two = f8_splat(2), three = f8_splat(3),
+             four = f8_splat(4);
+    const f8 five = f8_splat(5), eight = f8_splat(8), nine = f8_splat(9), ten = f8_splat(10);
+    const f8 t = lesser(greater(part, -half), one + half), t2 = t * t, t3 = t2 * t;
     return (Spline){{half * (two * t2 - t - t3), half * (two - five * t2 + three * t3),
                      half * (t + four * t2 - three * t3), half * (t3 - t2)},
                     {half * (four * t - one - three * t2), half * (nine * t2 - ten * t),
@@ -89,13 +90,13 @@ LANES_INLINE Spline spline(Lanes part)
                     {two - three * t, nine * t - five, four - nine * t, three * t - one}};
 }
 
-LANES_INLINE int held(int i, int size)
+SIMD_INLINE int held(int i, int size)
 {
     return i < 0 ? 0 : i < size ? i : size - 1;
 }
 
 /* Four values along x per lane; y and z count from two values before. */
-LANES_INLINE void row_of(const VolumeData *volume, const Between at[3], int y, int z, Lanes value[4])
+SIMD_INLINE void row_of(const VolumeData *volume, const GridInterval at[3], int y, int z, f8 value[4])
 {
     for (int lane = 0; lane < LANES; lane++) {
         const float *row = value_at(volume, 0, held(at[1].first[lane] + y - 1, volume->size[1]),
@@ -108,20 +109,20 @@ LANES_INLINE void row_of(const VolumeData *volume, const Between at[3], int y, i
     }
 }
 
-LANES_INLINE Lanes weighed(const Lanes weight[4], const Lanes value[4])
+SIMD_INLINE f8 weighed(const f8 weight[4], const f8 value[4])
 {
     return (weight[0] * value[0] + weight[1] * value[1]) + (weight[2] * value[2] + weight[3] * value[3]);
 }
 
 /* Sums over a slice's rows: letters name the axes of derivatives. */
 typedef struct Slice {
-    Lanes none, x, y, xx, xy, yy;
+    f8 none, x, y, xx, xy, yy;
 } Slice;
 
-LANES_INLINE Slice slice_of(const VolumeData *volume, const Between at[3], const Spline *along_x,
-                            const Spline *along_y, int z)
+SIMD_INLINE Slice slice_of(const VolumeData *volume, const GridInterval at[3], const Spline *along_x,
+                           const Spline *along_y, int z)
 {
-    Lanes value[4], none[4], slope[4], bend[4];
+    f8 value[4], none[4], slope[4], bend[4];
     for (int y = 0; y < 4; y++) {
         row_of(volume, at, y, z, value);
         none[y] = weighed(along_x->value, value);
@@ -133,17 +134,17 @@ LANES_INLINE Slice slice_of(const VolumeData *volume, const Between at[3], const
                    weighed(along_y->slope, slope), weighed(along_y->bend, none)};
 }
 
-LANES_INLINE void catmull_rom_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+SIMD_INLINE void catmull_rom_at(const LevelField *field, const LanePlace *p, LaneSample *out)
 {
     const VolumeData *volume = field->own;
-    const Between at[3] = {between(volume, 0, p->x), between(volume, 1, p->y), between(volume, 2, p->z)};
+    const GridInterval at[3] = {between(volume, 0, p->x), between(volume, 1, p->y), between(volume, 2, p->z)};
     const Spline along[3] = {spline(at[0].part), spline(at[1].part), spline(at[2].part)};
-    const Lanes x = at[0].inverse, y = at[1].inverse, z = at[2].inverse, zero = lanes(0);
-    Lanes straight[3] = {zero, zero, zero}, across[3] = {zero, zero, zero};
+    const f8 x = at[0].inverse, y = at[1].inverse, z = at[2].inverse, zero = f8_splat(0);
+    f8 straight[3] = {zero, zero, zero}, across[3] = {zero, zero, zero};
     *out = (LaneSample){zero, zero, zero, zero, zero};
     for (int k = 0; k < 4; k++) {
         const Slice s = slice_of(volume, at, &along[0], &along[1], k);
-        const Lanes value = along[2].value[k], slope = along[2].slope[k];
+        const f8 value = along[2].value[k], slope = along[2].slope[k];
         out->value += value * s.none;
         out->x += value * s.x * x;
         out->y += value * s.y * y;

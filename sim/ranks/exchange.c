@@ -28,7 +28,7 @@ static size_t dist_pick(Dist *dist, Cpu *cpu, const uint8_t *marked)
 {
     const size_t ranges = (cpu->count + PICK_GRAIN - 1) / PICK_GRAIN;
     size_t count = 0;
-    dist_reserve(&dist->ranges, &dist->ranges_room, ranges * sizeof *dist->ranges);
+    dist_reserve(&dist->ranges, &dist->ranges_capacity, ranges * sizeof *dist->ranges);
     Pick pick = {cpu, marked, cpu->rank, dist->ranges};
     parallel_ranges(cpu->threads, cpu->count, PICK_GRAIN, pick_range, &pick);
     for (size_t r = 0; r < ranges; count += dist->ranges[r++])
@@ -137,8 +137,8 @@ static void carry(Dist *dist, ZOLTAN_COMM_OBJ *plan, int tag, size_t count, size
 static size_t take_leavers(Dist *dist, Cpu *cpu, size_t size)
 {
     const size_t count = dist_pick(dist, cpu, dist->foreign);
-    dist_reserve(&dist->to, &dist->to_room, count * sizeof *dist->to);
-    dist_reserve(&dist->out, &dist->out_room, count * size);
+    dist_reserve(&dist->to, &dist->to_capacity, count * sizeof *dist->to);
+    dist_reserve(&dist->out, &dist->out_capacity, count * size);
     for (size_t k = count; k-- > 0;) {
         const size_t i = cpu->rank[k];
         dist->to[k] = dist->owner[cpu->spare_cell[i]];
@@ -159,7 +159,7 @@ void dist_migrate(Dist *dist, Cpu *cpu)
         return;
     const size_t leave = take_leavers(dist, cpu, size);
     ZOLTAN_COMM_OBJ *plan = make_plan(dist, leave, TAG_PARTICLES, &come);
-    dist_reserve(&dist->in, &dist->in_room, (size_t)come * size);
+    dist_reserve(&dist->in, &dist->in_capacity, (size_t)come * size);
     carry(dist, plan, TAG_PARTICLES, leave, size, "particles");
     Zoltan_Comm_Destroy(&plan);
     reserve_particles(cpu, cpu->count + (size_t)come);
@@ -174,7 +174,7 @@ void dist_migrate(Dist *dist, Cpu *cpu)
 
 /* ---- ghosts ---- */
 
-static const Seen *who_sees(const Dist *dist, const Cpu *cpu, size_t i)
+static const CellReaders *who_sees(const Dist *dist, const Cpu *cpu, size_t i)
 {
     return &dist->sets[dist->border[cpu->spare_cell[i]]];
 }
@@ -187,13 +187,13 @@ static void send_ghosts(Dist *dist, Cpu *cpu)
     size_t count = 0;
     for (size_t n = 0; n < shown; n++)
         count += who_sees(dist, cpu, cpu->rank[n])->count;
-    dist_reserve(&dist->to, &dist->to_room, count * sizeof *dist->to);
-    dist_reserve(&dist->send_at, &dist->send_room, count * sizeof *dist->send_at);
-    dist_reserve(&dist->out, &dist->out_room, count * sizeof(Ghost));
+    dist_reserve(&dist->to, &dist->to_capacity, count * sizeof *dist->to);
+    dist_reserve(&dist->send_at, &dist->send_capacity, count * sizeof *dist->send_at);
+    dist_reserve(&dist->out, &dist->out_capacity, count * sizeof(Ghost));
     count = 0;
     for (size_t n = 0; n < shown; n++) {
         const uint32_t i = cpu->rank[n];
-        const Seen *seen = who_sees(dist, cpu, i);
+        const CellReaders *seen = who_sees(dist, cpu, i);
         const Ghost ghost = {{p->x[i], p->y[i], p->z[i]}, p->fluid[i], p->id[i], cpu->spare_cell[i]};
         for (uint32_t k = 0; k < seen->count; k++, count++) {
             dist->to[count] = dist->seen[seen->first + k];
@@ -228,8 +228,8 @@ void dist_halo(Dist *dist, Cpu *cpu)
     send_ghosts(dist, cpu);
     dist->plan = make_plan(dist, dist->send_count, TAG_GHOSTS, &come);
     dist->ghost_count = (size_t)come;
-    dist_reserve(&dist->in, &dist->in_room, dist->ghost_count * sizeof(Ghost));
-    dist_reserve(&dist->ghost_at, &dist->ghost_room, dist->ghost_count * sizeof *dist->ghost_at);
+    dist_reserve(&dist->in, &dist->in_capacity, dist->ghost_count * sizeof(Ghost));
+    dist_reserve(&dist->ghost_at, &dist->ghost_capacity, dist->ghost_count * sizeof *dist->ghost_at);
     carry(dist, dist->plan, TAG_GHOSTS, dist->send_count, sizeof(Ghost), "ghosts");
     reserve_particles(cpu, cpu->count + dist->ghost_count);
     append_ghosts(dist, cpu);
@@ -285,8 +285,8 @@ void dist_update(Dist *dist, Cpu *cpu, uint64_t wanted, bool motion)
     size_t offset = 0;
     if (dist->size == 1 || record == 0)
         return;
-    dist_reserve(&dist->out, &dist->out_room, dist->send_count * record);
-    dist_reserve(&dist->in, &dist->in_room, dist->ghost_count * record);
+    dist_reserve(&dist->out, &dist->out_capacity, dist->send_count * record);
+    dist_reserve(&dist->in, &dist->in_capacity, dist->ghost_count * record);
     for (int r = 0; r < rows.count; r++)
         for (int c = 0; c < rows.row[r]->components; c++, offset += column_size(rows.row[r]))
             pack(*column_array(&cpu->now, rows.row[r], c), column_size(rows.row[r]), dist->send_at,

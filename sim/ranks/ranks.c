@@ -7,8 +7,6 @@
 #include <string.h>
 
 /* Once per frame: sharing is due if the slowest rank was much slower than the mean. */
-static void look_at_shares(Ranks *ranks);
-
 static bool ranks_read(void *state, const ParticleArrays *out)
 {
     return cpu_read(((Ranks *)state)->cpu, out);
@@ -85,135 +83,59 @@ static bool ranks_mark(void *state, Error *error)
     Cpu *cpu = ranks->cpu;
     (void)error;
     look_at_shares(ranks);
-    if (cpu->owned > ranks->kept_room || !ranks->kept.x) {
-        columns_destroy(&ranks->kept);
-        ranks->kept_room = cpu->owned + cpu->owned / 16 + 16;
+    if (cpu->owned > ranks->marked_capacity || !ranks->marked.x) {
+        columns_destroy(&ranks->marked);
+        ranks->marked_capacity = cpu->owned + cpu->owned / 16 + 16;
     }
-    if (!columns_create(&ranks->kept, &cpu->saved, ranks->kept_room, NULL))
+    if (!columns_create(&ranks->marked, &cpu->saved, ranks->marked_capacity, NULL))
         dist_die("no memory for the state of %zu particles", cpu->owned);
-    ranks->kept_count = cpu->owned;
-    return backend_cpu.save(cpu, &ranks->kept);
+    ranks->marked_count = cpu->owned;
+    return backend_cpu.save(cpu, &ranks->marked);
 }
 
 static void ranks_back(void *state, size_t count, size_t guarded)
 {
     Ranks *ranks = state;
     Cpu *cpu = ranks->cpu;
-    make_room(ranks, ranks->kept_count);
-    columns_copy(&cpu->saved, &ranks->kept, &cpu->now, NULL, 0, ranks->kept_count);
+    make_room(ranks, ranks->marked_count);
+    columns_copy(&cpu->saved, &ranks->marked, &cpu->now, NULL, 0, ranks->marked_count);
     ranks->total = count;
-    start_with(ranks, ranks->kept_count, guarded);
+    start_with(ranks, ranks->marked_count, guarded);
 }
 
 /* Shares of the cells: at the start and as the fluid moves. */
 
-/* Cells are shared out again if the slowest rank takes more than UNEVEN times the mean time, and the time
-   lost since the last sharing exceeds TAKES times the cost of sharing: moved particles cost about as much
-   again. */
-static const double UNEVEN = 1.05, TAKES = 2;
-
-static bool balances = true;
-
-void ranks_balance(bool on)
-{
-    balances = on;
-}
-
-bool is_own(const Dist *dist, const Constants *constants, const float *x)
-{
-    return dist_owner(dist, cpu_cell_of(constants, x)) == dist_rank(dist);
-}
-
-/* First shares: by the particles of each cell, known to all ranks; an empty box is shared by cells. */
-static void share_first(Ranks *ranks, const Constants *constants, const InitialState *initial)
-{
-    const Clock begin = clock_now();
-    for (size_t cell = 0; initial->count == 0 && cell < constants->cells.count; cell++)
-        ranks->weight[cell] = 1;
-    for (size_t i = 0; i < initial->count; i++)
-        ranks->weight[cpu_cell_of(constants, initial->position + 3 * i)]++;
-    dist_balance(ranks->dist, ranks->weight, true);
-    ranks->took = clock_now().cpu - begin.cpu;
-}
-
-/* Call after cpu_cells. Weight of each own cell: its particles, each at the rank's mean time per particle
-   and step. */
-static void weigh(Ranks *ranks)
-{
-    const Cpu *cpu = ranks->cpu;
-    const uint8_t *foreign = dist_foreign(ranks->dist);
-    const double each = ranks->cpu_time / (ranks->worked > 0 ? ranks->worked : 1);
-    for (size_t cell = 0; cell < cpu->constants->cells.count; cell++)
-        ranks->weight[cell] = 0;
-    for (size_t i = 0; i < cpu->count; i++) {
-        const uint32_t cell = cpu->spare_cell[i];
-        if (cpu_owns(cpu, i) && !foreign[cell])
-            ranks->weight[cell] += each;
-    }
-}
-
-void share_anew(Ranks *ranks)
-{
-    const Clock begin = clock_now();
-    weigh(ranks);
-    dist_balance(ranks->dist, ranks->weight, false);
-    ranks->due = false;
-    ranks->cpu_time = ranks->worked = 0;
-    ranks->figures.balances++;
-    const Clock end = clock_now();
-    ranks->took = end.cpu - begin.cpu;
-    ranks->figures.balance += end.wall - begin.wall;
-}
-
-static void look_at_shares(Ranks *ranks)
-{
-    /* The least time of all ranks is the cost of sharing: a late rank or a rank on a shared core waits and
-       would raise the cost. */
-    double most[2] = {ranks->cpu_time, -ranks->took}, mean = ranks->cpu_time;
-    if (!balances || dist_size(ranks->dist) == 1)
-        return;
-    reduce_most(most, 2);
-    reduce_sum(&mean, 1);
-    mean /= dist_size(ranks->dist);
-    ranks->due = most[0] > UNEVEN * mean && (most[0] - mean) / ranks->cpu->threads > TAKES * -most[1];
-}
-
-static Ranks *told;
+static Ranks *reporting;
 
 void ranks_figures(RanksFigures *figures)
 {
     WorldInfo info;
     *figures = (RanksFigures){.compute = 0};
-    if (!told)
+    if (!reporting)
         return;
-    backend_cpu.info(told->cpu, &info);
-    *figures = told->figures;
+    backend_cpu.info(reporting->cpu, &info);
+    *figures = reporting->figures;
     figures->bytes = info.state_bytes;
-    figures->owned = told->cpu->owned;
-    figures->ghosts = dist_ghosts(told->dist);
-    told->figures = (RanksFigures){.compute = 0};
-}
-
-size_t ranks_owned(void)
-{
-    return told ? told->cpu->owned : 0;
+    figures->owned = reporting->cpu->owned;
+    figures->ghosts = dist_ghosts(reporting->dist);
+    reporting->figures = (RanksFigures){.compute = 0};
 }
 
 void ranks_cells(uint32_t *cell)
 {
-    for (size_t k = 0; told && k < told->cpu->owned; k++)
-        cell[k] = told->cpu->cell[cpu_owned(told->cpu, k)];
+    for (size_t k = 0; reporting && k < reporting->cpu->owned; k++)
+        cell[k] = reporting->cpu->cell[cpu_owned(reporting->cpu, k)];
 }
 
 /* Runs within computing time, but counts as waiting and exchange only. */
 static void sum_all(ExactSum *sums, int count)
 {
     const Clock begin = clock_now();
-    wait_for_others(told);
+    wait_for_others(reporting);
     const Clock met = clock_now();
     reduce_exact(sums, count);
-    exchanged(told, met);
-    not_computed(told, begin);
+    exchanged(reporting, met);
+    not_computed(reporting, begin);
 }
 
 /* ---- begin and end ---- */
@@ -221,12 +143,12 @@ static void sum_all(ExactSum *sums, int count)
 static void ranks_destroy(void *state)
 {
     Ranks *ranks = state;
-    if (told == ranks)
-        told = NULL;
+    if (reporting == ranks)
+        reporting = NULL;
     if (ranks->cpu)
         backend_cpu.destroy(ranks->cpu);
     dist_end(ranks->dist);
-    columns_destroy(&ranks->kept);
+    columns_destroy(&ranks->marked);
     free(ranks->weight);
     free(ranks->came);
     free(ranks);
@@ -246,14 +168,6 @@ static void share_free(Share *share)
                          share->pressure, share->fluid,    share->id};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         free(all[k]);
-}
-
-void *some(const void *wanted, size_t count, size_t size)
-{
-    void *memory = wanted ? malloc((count + 1) * size) : NULL;
-    if (wanted && !memory)
-        dist_die("no memory for %zu particles; use more ranks or a larger spacing", count);
-    return memory;
 }
 
 static void share_take(const Ranks *ranks, const Constants *constants, const InitialState *from, Share *share)
@@ -290,11 +204,6 @@ static void share_take(const Ranks *ranks, const Constants *constants, const Ini
                                     .pressure = share->pressure};
 }
 
-size_t room_for(size_t count, int size)
-{
-    return size == 1 ? count : count + count / 8 + 1024;
-}
-
 static void *ranks_create(const Constants *constants, const WorldDef *def, const InitialState *initial,
                           size_t capacity, Error *error)
 {
@@ -320,13 +229,13 @@ static void *ranks_create(const Constants *constants, const WorldDef *def, const
     share_free(&share);
     if (size > 1 && !cpu_share(ranks->cpu, dist_foreign(ranks->dist)))
         dist_die("no memory for %zu particles; use more ranks or a larger spacing", ranks->cpu->count);
-    told = ranks;
+    reporting = ranks;
     return ranks;
 }
 
-static bool ranks_feel(void *state, Forces *to, Error *error)
+static bool ranks_enable_forces(void *state, Forces *to, Error *error)
 {
-    if (!cpu_feel(((Ranks *)state)->cpu, to, error))
+    if (!cpu_enable_forces(((Ranks *)state)->cpu, to, error))
         dist_die("%s", error->message);
     return true;
 }
@@ -367,10 +276,12 @@ const Backend backend_ranks = {
     .touch = ranks_touch,
     .guide = ranks_guide,
     .sums = ranks_sums,
+    .gauge = ranks_gauge,
+    .gauged = ranks_gauged,
     .read = ranks_read,
     .held = ranks_held,
     .energy = ranks_energy,
-    .feel = ranks_feel,
+    .enable_forces = ranks_enable_forces,
     .emit = ranks_emit,
     .drain = ranks_drain,
     .save = ranks_save,

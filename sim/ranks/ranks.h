@@ -2,7 +2,7 @@
 #ifndef SIM_RANKS_RANKS_H
 #define SIM_RANKS_RANKS_H
 
-#include "sim/base/sums.h"
+#include "sim/base/base.h"
 #include "sim/cpu/cpu.h"
 #include "slosh/state.h"
 
@@ -85,7 +85,7 @@ _Noreturn void dist_die(const char *format, ...) __attribute__((format(printf, 1
 
 /* Makes *memory hold at least `bytes` bytes; *room is the current size in bytes. Old contents are lost.
    Ends all ranks if memory is short. */
-void dist_reserve(void *memory, size_t *room, size_t bytes);
+void dist_reserve(void *memory, size_t *capacity, size_t bytes);
 
 /* The backend cpu on MPI ranks: each rank makes the same world and calls the same world functions; the
    backend of each rank has a share of the particles. Results equal backend cpu to the bit, for any number
@@ -94,7 +94,7 @@ void dist_reserve(void *memory, size_t *room, size_t bytes);
 struct Backend; /* sim/step/backend.h */
 
 /* Backend name in a def; slosh-dist sets it instead of "cpu". Call backend_add first. world_read gives each
-   rank its own particles, ranks_owned of them. */
+   rank its own particles, world_held of them. */
 #define RANKS_BACKEND "ranks"
 extern const struct Backend backend_ranks;
 
@@ -110,9 +110,6 @@ typedef struct RanksFigures {
 
 /* Figures of the rank, for the last world made. Not collective. */
 void ranks_figures(RanksFigures *figures);
-
-/* Number of own particles of the rank in the last world made. */
-size_t ranks_owned(void);
 
 /* Writes the cell of each own particle, in the order of world_read. One process orders particles by cell,
    and by id in a cell. The world must have a grid. */

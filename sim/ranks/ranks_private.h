@@ -10,16 +10,16 @@
 #include <zoltan_comm.h>
 
 /* Ranks that see an own cell: `count` entries of Dist.seen from `first`. */
-typedef struct Seen {
+typedef struct CellReaders {
     uint32_t first, count;
-} Seen;
+} CellReaders;
 
 /* Cells with particles, for Zoltan. */
-typedef struct Objects {
+typedef struct BalanceObjects {
     const double *weight;
     uint32_t *cell;
     int count;
-} Objects;
+} BalanceObjects;
 
 struct Dist {
     const Constants *constants;
@@ -27,23 +27,23 @@ struct Dist {
     int rank, size;
     int wide; /* layers of cells with ghosts */
     struct Zoltan_Struct *zoltan;
-    Objects objects;
+    BalanceObjects objects;
     int *owner;       /* per cell */
     uint8_t *foreign; /* per cell, plus an extra entry: see Cpu.foreign */
     uint8_t *shown;   /* per cell, plus an extra entry: 1 if foreign ranks see the cell */
     uint32_t *border; /* per shown cell: index in `sets` */
-    Seen *sets;
+    CellReaders *sets;
     int *seen;
-    size_t set_count, set_room, seen_count, seen_room;
+    size_t set_count, set_capacity, seen_count, seen_capacity;
     ZOLTAN_COMM_OBJ *plan; /* of the present ghosts; NULL: none */
     size_t send_count, ghost_count;
-    uint32_t *send_at, *ghost_at; /* indices of particles sent as ghosts; of ghosts here */
-    size_t send_room, ghost_room; /* bytes */
-    uint32_t *ranges;             /* scratch of dist_pick */
-    size_t ranges_room;
+    uint32_t *send_at, *ghost_at;         /* indices of particles sent as ghosts; of ghosts here */
+    size_t send_capacity, ghost_capacity; /* bytes */
+    uint32_t *ranges;                     /* scratch of dist_pick */
+    size_t ranges_capacity;
     int *to;        /* receiving ranks */
     char *out, *in; /* send and receive buffers */
-    size_t to_room, out_room, in_room;
+    size_t to_capacity, out_capacity, in_capacity;
     DistSent sent;
 };
 
@@ -55,33 +55,33 @@ void dist_check(int code, const char *what);
 enum { PASSES_KNOWN = 64 };
 
 /* The rows of cpu->all read and written by a pass, a bit per row. */
-typedef struct Touched {
+typedef struct PassAccess {
     const Pass *pass;
     uint64_t reads, writes;
     bool walks, packed, whole; /* a loop walks; reads filled Cpu.motion; no loop leaves out ghosts */
-} Touched;
+} PassAccess;
 
 typedef struct Ranks {
     Cpu *cpu;
     Dist *dist;
     uint64_t fresh; /* rows of cpu->all up to date for ghosts */
-    Touched known[PASSES_KNOWN];
+    PassAccess known[PASSES_KNOWN];
     int known_count;
-    size_t total, guarded; /* over all ranks: particles; guarded steps of particles */
-    size_t began_guarded;  /* `guarded` before the rank's own count began */
-    ParticleColumns kept;  /* state of the last mark */
-    size_t kept_count, kept_room;
+    size_t total, guarded;  /* over all ranks: particles; guarded steps of particles */
+    size_t began_guarded;   /* `guarded` before the rank's own count began */
+    ParticleColumns marked; /* state of the last mark */
+    size_t marked_count, marked_capacity;
     double *weight;  /* scratch per cell */
     bool due;        /* share the cells out at the next grid */
     double took;     /* s of the rank's processor time for the last sharing */
     double cpu_time; /* s of computing since then, over all threads of the rank */
     double worked;   /* particles computed since then, summed over steps */
     float *came;     /* positions emitted on foreign ranks since the grid */
-    size_t came_count, came_room;
+    size_t came_count, came_capacity;
     RanksFigures figures;
 } Ranks;
 
-/* ---- clocks: ranks_clock.c ---- */
+/* ---- clocks: ranks_shares.c ---- */
 
 typedef struct Clock {
     double wall, cpu;
@@ -89,6 +89,9 @@ typedef struct Clock {
 
 Clock clock_now(void);
 
+/* Adds the time since `since`: computed to computing; exchanged to exchange. not_computed takes the time
+   out of a longer one counted as computing. */
+void computed(Ranks *ranks, Clock since);
 void not_computed(Ranks *ranks, Clock since);
 void exchanged(Ranks *ranks, Clock since);
 
@@ -97,7 +100,11 @@ void wait_for_others(Ranks *ranks);
 
 /* ---- shares: ranks_shares.c ---- */
 
-/* Shares the cells out again, after look_at_shares found sharing due. */
+/* First shares: by the particles of each cell, known to all ranks; an empty box is shared by cells. */
+void share_first(Ranks *ranks, const Constants *constants, const InitialState *initial);
+
+/* Finds if sharing is due (Ranks.due). share_anew then shares the cells out again. */
+void look_at_shares(Ranks *ranks);
 void share_anew(Ranks *ranks);
 
 /* True if the cell at x (m) belongs to the rank. */
@@ -115,22 +122,22 @@ void ranks_kick(void *state, const float gravity[3], float dt);
 void ranks_touch(void *state, const FingerStep *finger);
 double ranks_guide(void *state, const Guide *guides, int count);
 
-/* ---- sums over all ranks: ranks_sums.c ---- */
+/* ---- sums over all ranks: ranks_step.c ---- */
 
 StepWatch ranks_watch(void *state);
 Excess ranks_excess(void *state, const ColumnDef *column);
 double ranks_sum(void *state, const ColumnDef *column);
 void ranks_energy(void *state, bool turning, EnergySums *sums);
+bool ranks_gauge(void *state, const double gravity[3]);
+bool ranks_gauged(void *state, WorldGauge *gauge, bool waits);
 void ranks_sums(void *state, WorldSums *sums);
 
-/* ---- states: ranks_keep.c ---- */
-
-/* ---- emitters and drains: ranks_flow.c ---- */
+/* ---- emitters and drains: ranks_step.c ---- */
 
 size_t ranks_emit(void *state, const EmitLayer *layer, size_t most);
 size_t ranks_drain(void *state, const Fill *regions, int count);
 
-/* ---- memory ---- */
+/* ---- memory: ranks_shares.c ---- */
 
 /* Array size for `count` own particles: on more than one rank with spare room for moved particles and
    ghosts. */

@@ -1,4 +1,4 @@
-/* Times of a rank: computing, exchange, waiting. */
+/* A step on ranks. */
 #include "sim/ranks/ranks.h"
 
 #include "sim/ranks/ranks_private.h"
@@ -6,48 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-
-static double seconds(clockid_t clock)
-{
-    struct timespec now;
-    clock_gettime(clock, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-Clock clock_now(void)
-{
-    return (Clock){MPI_Wtime(), seconds(CLOCK_PROCESS_CPUTIME_ID)};
-}
-
-/* Adds the time since `since`: computed to computing; exchanged to exchange. not_computed takes the time
-   out of a longer one counted as computing. */
-static void computed(Ranks *ranks, Clock since)
-{
-    ranks->figures.compute += MPI_Wtime() - since.wall;
-    ranks->cpu_time += seconds(CLOCK_PROCESS_CPUTIME_ID) - since.cpu;
-}
-
-void not_computed(Ranks *ranks, Clock since)
-{
-    ranks->figures.compute -= MPI_Wtime() - since.wall;
-    ranks->cpu_time -= seconds(CLOCK_PROCESS_CPUTIME_ID) - since.cpu;
-}
-
-void exchanged(Ranks *ranks, Clock since)
-{
-    const DistSent sent = dist_sent(ranks->dist);
-    ranks->figures.exchange += MPI_Wtime() - since.wall;
-    ranks->figures.sent += sent.bytes;
-    ranks->figures.messages += sent.messages;
-}
-
-void wait_for_others(Ranks *ranks)
-{
-    const double begin = MPI_Wtime();
-    if (dist_size(ranks->dist) > 1)
-        MPI_Barrier(MPI_COMM_WORLD);
-    ranks->figures.wait += MPI_Wtime() - begin;
-}
 
 /* Emitters and drains on ranks. */
 
@@ -69,9 +27,9 @@ static bool clear_of_others(const Ranks *ranks, const float x[3])
 /* Records a position where a foreign rank emitted a particle since the grid. */
 static void note(Ranks *ranks, const float x[3])
 {
-    if (ranks->came_count == ranks->came_room) {
-        ranks->came_room = 2 * ranks->came_room + 256;
-        ranks->came = realloc(ranks->came, ranks->came_room * 3 * sizeof *ranks->came);
+    if (ranks->came_count == ranks->came_capacity) {
+        ranks->came_capacity = 2 * ranks->came_capacity + 256;
+        ranks->came = realloc(ranks->came, ranks->came_capacity * 3 * sizeof *ranks->came);
         if (!ranks->came)
             dist_die("no memory for the particles that come");
     }
@@ -100,17 +58,17 @@ size_t ranks_emit(void *state, const EmitLayer *layer, size_t most)
     Ranks *ranks = state;
     Cpu *cpu = ranks->cpu;
     size_t number = 0;
-    double *room = some(layer, layer->count, sizeof *room);
+    double *capacity = some(layer, layer->count, sizeof *capacity);
     room_to_emit(ranks, layer->count);
     for (size_t k = 0; k < layer->count; k++) {
         const float *x = layer->position + 3 * k;
-        room[k] = walls_contain(&cpu->constants->walls, x) && is_own(ranks->dist, cpu->constants, x) &&
-                  cpu_has_room(cpu, x) && clear_of_others(ranks, x);
+        capacity[k] = walls_contain(&cpu->constants->walls, x) && is_own(ranks->dist, cpu->constants, x) &&
+                      cpu_has_room(cpu, x) && clear_of_others(ranks, x);
     }
-    reduce_most(room, (int)layer->count);
+    reduce_most(capacity, (int)layer->count);
     for (size_t k = 0; k < layer->count && number < most; k++) {
         const float *x = layer->position + 3 * k;
-        if (room[k] == 0)
+        if (capacity[k] == 0)
             continue;
         if (is_own(ranks->dist, cpu->constants, x))
             cpu_append(cpu, layer, x, number);
@@ -118,7 +76,7 @@ size_t ranks_emit(void *state, const EmitLayer *layer, size_t most)
             note(ranks, x);
         number++;
     }
-    free(room);
+    free(capacity);
     ranks->total += number;
     return number;
 }
@@ -196,6 +154,28 @@ void ranks_energy(void *state, bool turning, EnergySums *sums)
     memcpy(sums, each, sizeof *sums);
 }
 
+bool ranks_gauge(void *state, const double gravity[3])
+{
+    Ranks *ranks = state;
+    WorldGauge *gauge = &ranks->cpu->gauge;
+    if (!cpu_gauge(ranks->cpu, gravity))
+        return false;
+    double sums[4] = {gauge->density_error_mean * (double)ranks->cpu->owned, gauge->kinetic_energy,
+                      gauge->potential_energy, gauge->compression_energy};
+    reduce_sum(sums, 4);
+    reduce_most(&gauge->density_error_max, 1);
+    gauge->density_error_mean = sums[0] / (ranks->total > 0 ? (double)ranks->total : 1);
+    gauge->kinetic_energy = sums[1];
+    gauge->potential_energy = sums[2];
+    gauge->compression_energy = sums[3];
+    return true;
+}
+
+bool ranks_gauged(void *state, WorldGauge *gauge, bool waits)
+{
+    return cpu_gauged(((Ranks *)state)->cpu, gauge, waits);
+}
+
 void ranks_sums(void *state, WorldSums *sums)
 {
     Ranks *ranks = state;
@@ -229,14 +209,15 @@ static uint64_t rows_named(const Cpu *cpu, const char *list)
     return rows;
 }
 
-static Touched look_at(const Cpu *cpu, const Pass *pass)
+static PassAccess look_at(const Cpu *cpu, const Pass *pass)
 {
-    Touched touched = {.pass = pass,
-                       .reads = rows_named(cpu, pass->reads) & ~rows_named(cpu, "remainder"), /* read of own
-                                                                                                 particles
-                                                                                                 only */
-                       .writes = rows_named(cpu, pass->writes),
-                       .whole = true};
+    PassAccess touched = {.pass = pass,
+                          .reads =
+                              rows_named(cpu, pass->reads) & ~rows_named(cpu, "remainder"), /* read of own
+                                                                                               particles
+                                                                                               only */
+                          .writes = rows_named(cpu, pass->writes),
+                          .whole = true};
     for (const CpuLoop *loop = pass->cpu->loops; loop->body; loop++) {
         touched.walks |= loop->walks;
         touched.packed |= loop->packed;
@@ -245,12 +226,12 @@ static Touched look_at(const Cpu *cpu, const Pass *pass)
     return touched;
 }
 
-static Touched touched_by(Ranks *ranks, const Pass *pass)
+static PassAccess touched_by(Ranks *ranks, const Pass *pass)
 {
     for (int k = 0; k < ranks->known_count; k++)
         if (ranks->known[k].pass == pass)
             return ranks->known[k];
-    const Touched touched = look_at(ranks->cpu, pass);
+    const PassAccess touched = look_at(ranks->cpu, pass);
     if (ranks->known_count < PASSES_KNOWN)
         ranks->known[ranks->known_count++] = touched;
     return touched;
@@ -317,7 +298,7 @@ void ranks_leave(void *state)
 void ranks_run(void *state, const Pass *pass, const PassInput *input)
 {
     Ranks *ranks = state;
-    const Touched touched = touched_by(ranks, pass);
+    const PassAccess touched = touched_by(ranks, pass);
     const uint64_t wanted = touched.walks || touched.whole ? touched.reads & ~ranks->fresh : 0;
     if (wanted || touched.packed) {
         wait_for_others(ranks);

@@ -24,15 +24,15 @@ _Noreturn void dist_die(const char *format, ...)
     abort();
 }
 
-void dist_reserve(void *memory, size_t *room, size_t bytes)
+void dist_reserve(void *memory, size_t *capacity, size_t bytes)
 {
     void *at;
     memcpy(&at, memory, sizeof at);
-    if (bytes <= *room)
+    if (bytes <= *capacity)
         return;
     free(at);
-    *room = bytes + bytes / 4 + 4096;
-    at = malloc(*room);
+    *capacity = bytes + bytes / 4 + 4096;
+    at = malloc(*capacity);
     if (!at)
         dist_die("no memory for what ranks tell each other; use more ranks or a larger spacing");
     memcpy(memory, &at, sizeof at);
@@ -203,7 +203,7 @@ static int object_count(void *data, int *code)
 static void object_list(void *data, int global, int local, ZOLTAN_ID_PTR ids, ZOLTAN_ID_PTR local_ids,
                         int weights, float *weight, int *code)
 {
-    const Objects *objects = &((const Dist *)data)->objects;
+    const BalanceObjects *objects = &((const Dist *)data)->objects;
     (void)local, (void)local_ids, (void)global;
     for (int i = 0; i < objects->count; i++) {
         ids[i] = objects->cell[i];
@@ -336,12 +336,12 @@ static bool inner(const CellGrid *cells, uint32_t cell)
     return in;
 }
 
-static void *grown(void *memory, size_t count, size_t *room, size_t size)
+static void *grown(void *memory, size_t count, size_t *capacity, size_t size)
 {
-    if (count <= *room)
+    if (count <= *capacity)
         return memory;
-    *room = 2 * count + 64;
-    memory = realloc(memory, *room * size);
+    *capacity = 2 * count + 64;
+    memory = realloc(memory, *capacity * size);
     if (!memory)
         dist_die("no memory for the borders of its part");
     return memory;
@@ -360,15 +360,15 @@ static void look_around(Dist *dist, uint32_t cell)
             known = dist->seen[i] == owner;
         if (known)
             continue;
-        dist->seen = grown(dist->seen, dist->seen_count + 1, &dist->seen_room, sizeof *dist->seen);
+        dist->seen = grown(dist->seen, dist->seen_count + 1, &dist->seen_capacity, sizeof *dist->seen);
         dist->seen[dist->seen_count++] = owner;
     }
     if (dist->seen_count == first)
         return;
-    dist->sets = grown(dist->sets, dist->set_count + 1, &dist->set_room, sizeof *dist->sets);
+    dist->sets = grown(dist->sets, dist->set_count + 1, &dist->set_capacity, sizeof *dist->sets);
     dist->shown[cell] = 1;
     dist->border[cell] = (uint32_t)dist->set_count;
-    dist->sets[dist->set_count++] = (Seen){(uint32_t)first, (uint32_t)(dist->seen_count - first)};
+    dist->sets[dist->set_count++] = (CellReaders){(uint32_t)first, (uint32_t)(dist->seen_count - first)};
 }
 
 static void find_owners(Dist *dist)

@@ -1,6 +1,4 @@
-#include "sim/solids/bodies.h"
-
-#include "sim/solids/body.h"
+#include "sim/solids/solid.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,8 +9,8 @@ struct Bodies {
     Body body[SOLIDS_MAX];
     BodyStates now;
     double parted; /* greatest shift of overlaps in the last step, m */
-    Forces felt;   /* since the last bodies_kick or bodies_end */
-    Forces *told;  /* also receives the forces; may be NULL */
+    Forces forces; /* since the last bodies_kick or bodies_end */
+    Forces *copy;  /* also receives the forces; may be NULL */
     BodiesStep step;
     BoxState fixed[SOLIDS_MAX]; /* poses of fixed solids at the end of the step */
 };
@@ -53,14 +51,14 @@ void bodies_destroy(Bodies *bodies)
     free(bodies);
 }
 
-Forces *bodies_felt(Bodies *bodies)
+Forces *bodies_forces(Bodies *bodies)
 {
-    return &bodies->felt;
+    return &bodies->forces;
 }
 
-void bodies_tell(Bodies *bodies, Forces *to)
+void bodies_copy_forces(Bodies *bodies, Forces *to)
 {
-    bodies->told = to;
+    bodies->copy = to;
 }
 
 void bodies_poses(const Bodies *bodies, BoxState floating[SOLIDS_MAX], SolidPose pose[SOLIDS_MAX])
@@ -173,10 +171,10 @@ void bodies_begin(Bodies *bodies, const BodiesStep *step)
 /* Takes the forces felt so far, and resets the sums. */
 static void take(Bodies *bodies, Push push[SOLIDS_MAX])
 {
-    memcpy(push, bodies->felt.solid, sizeof bodies->felt.solid);
-    if (bodies->told)
-        forces_add(bodies->told, &bodies->felt);
-    bodies->felt = (Forces){.seconds = 0};
+    memcpy(push, bodies->forces.solid, sizeof bodies->forces.solid);
+    if (bodies->copy)
+        forces_add(bodies->copy, &bodies->forces);
+    bodies->forces = (Forces){.seconds = 0};
 }
 
 void bodies_kick(Bodies *bodies)
@@ -204,7 +202,7 @@ void bodies_end(Bodies *bodies)
             push_add(&bodies->now.of[k].left, 1, &push[k]);
 }
 
-double bodies_parted(const Bodies *bodies)
+double bodies_shift(const Bodies *bodies)
 {
     return bodies->parted;
 }
@@ -239,7 +237,7 @@ void bodies_save(const Bodies *bodies, BodyStates *to)
 void bodies_load(Bodies *bodies, const BodyStates *from)
 {
     bodies->now = *from;
-    bodies->felt = (Forces){.seconds = 0};
+    bodies->forces = (Forces){.seconds = 0};
 }
 
 bool bodies_are_valid(const Bodies *bodies, const BodyStates *states)

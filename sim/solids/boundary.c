@@ -1,5 +1,4 @@
 #include "sim/mesh/mesh_shape.h"
-#include "sim/solids/boundary_mesh.h"
 #include "sim/solids/solid.h"
 
 #include <math.h>
@@ -7,15 +6,15 @@
 #include <string.h>
 
 /* Destination of one solid's particles. */
-typedef struct Sink {
+typedef struct PointWriter {
     const SolidDef *solid;
     int dimensions;
     double spacing, depth;
     float *position; /* NULL: only counts */
     size_t count;
-} Sink;
+} PointWriter;
 
-static void put(Sink *sink, double x, double y, double z)
+static void put(PointWriter *sink, double x, double y, double z)
 {
     if (sink->position) {
         float *to = sink->position + 3 * sink->count;
@@ -31,7 +30,7 @@ static long at_least_one(double count)
 
 /* `count` points, evenly over the part -1 <= y / radius <= `top` of a sphere: a Fibonacci lattice, whose
    points all have the same area. */
-static void put_sphere(Sink *sink, double radius, double top, long count)
+static void put_sphere(PointWriter *sink, double radius, double top, long count)
 {
     const double golden = M_PI * (3 - sqrt(5));
     for (long i = 0; i < count; i++) {
@@ -41,10 +40,26 @@ static void put_sphere(Sink *sink, double radius, double top, long count)
     }
 }
 
-/* A ring about z (axis 2) or y (axis 1) at the height `along`. */
-static void put_ring(Sink *sink, int axis, double radius, double along, double begin, double sweep)
+static double cube(double x)
 {
-    const long count = at_least_one(radius * sweep / sink->spacing);
+    return x * x * x;
+}
+
+/* Mean distance of the matter between two radii from the middle. Particles at half the thickness would be too
+   deep behind a curved surface: a ball of three spacings would displace 0.93 of its volume. */
+static double mean_radius(int dimensions, double inner, double outer)
+{
+    const double inner2 = inner * inner, outer2 = outer * outer;
+    return dimensions == 2 ? 2.0 / 3 * (cube(outer) - cube(inner)) / (outer2 - inner2)
+                           : 0.75 * (outer2 * outer2 - inner2 * inner2) / (cube(outer) - cube(inner));
+}
+
+/* `count` points on the ring of the matter between two radii, about z (axis 2) or y (axis 1), at the height
+   `along`. */
+static void put_ring(PointWriter *sink, int axis, double inner, double outer, long count, double along,
+                     double begin, double sweep)
+{
+    const double radius = count > 1 ? mean_radius(2, inner, outer) : inner;
     for (long i = 0; i < count; i++) {
         const double angle = begin + sweep * ((double)i + 0.5) / (double)count;
         const double a = radius * cos(angle), b = radius * sin(angle);
@@ -55,27 +70,32 @@ static void put_ring(Sink *sink, int axis, double radius, double along, double b
     }
 }
 
-static double cube(double x)
+/* Number of particles of the matter from `before` to `after`, in particles' volumes: in all they have the
+   volume of the solid. */
+static long between(double before, double after)
 {
-    return x * x * x;
+    return lround(after) - lround(before);
 }
 
 /* Shells of a ball, or rings of a disc, from the surface inwards. */
-static void put_ball(Sink *sink)
+static void put_ball(PointWriter *sink)
 {
-    const double s = sink->spacing;
-    for (double outer = sink->solid->radius, behind = 0; outer > 0 && behind < sink->depth;
-         outer -= s, behind += s) {
-        const double inner = fmax(outer - s, 0), middle = inner > 0 ? 0.5 * (inner + outer) : 0.5 * outer;
-        if (sink->dimensions == 2)
-            put_ring(sink, 2, middle, 0, 0, 2 * M_PI);
+    const double s = sink->spacing, radius = sink->solid->radius / s;
+    for (double outer = radius, before = 0, after; outer > 0 && (radius - outer) * s < sink->depth; outer--) {
+        const double inner = fmax(outer - 1, 0);
+        const bool flat = sink->dimensions == 2;
+        after = flat ? M_PI * (radius * radius - inner * inner) : 4 * M_PI / 3 * (cube(radius) - cube(inner));
+        const long count = before > 0 ? between(before, after) : at_least_one(after);
+        if (flat)
+            put_ring(sink, 2, s * inner, s * outer, count, 0, 0, 2 * M_PI);
         else
-            put_sphere(sink, middle, 1, at_least_one(4 * M_PI / 3 * (cube(outer) - cube(inner)) / cube(s)));
+            put_sphere(sink, s * mean_radius(3, inner, outer), 1, count);
+        before = after;
     }
 }
 
 /* Shells of the wall of a bowl, or half rings. */
-static void put_bowl(Sink *sink)
+static void put_bowl(PointWriter *sink)
 {
     const SolidDef *solid = sink->solid;
     const double s = sink->spacing;
@@ -87,74 +107,106 @@ static void put_bowl(Sink *sink)
         if (behind >= sink->depth)
             continue;
         if (sink->dimensions == 2)
-            put_ring(sink, 2, 0.5 * (inner + outer), 0, M_PI, M_PI);
+            put_ring(sink, 2, inner, outer,
+                     at_least_one(M_PI / 2 * (outer * outer - inner * inner) / (s * s)), 0, M_PI, M_PI);
         else
-            put_sphere(sink, 0.5 * (inner + outer), 0,
+            put_sphere(sink, mean_radius(3, inner, outer), 0,
                        at_least_one(2 * M_PI / 3 * (cube(outer) - cube(inner)) / cube(s)));
     }
 }
 
-/* A lattice that fits the block. */
-typedef struct Block {
-    long points[3];
-    double step[3];
-    long layers[3]; /* number of layers on each side that are within the depth */
-} Block;
+/* Rows of particles along the block's longest edge. Where the edges are no whole numbers of spacings the rows
+   are a little nearer or further apart, and have so many particles that all have the block's volume. */
+typedef struct BlockRows {
+    int along, across[2];
+    long rows[2], layers[2]; /* of rows along each other axis; number on each side that are within the depth,
+                                0 in two dimensions for z */
+    double step[2], length;  /* between rows; of a row */
+    double count;            /* mean number of particles in a row */
+} BlockRows;
 
-static bool near_side(const Block *block, int k, long index)
+static BlockRows block_rows(const PointWriter *sink)
 {
-    return index < block->layers[k] || index >= block->points[k] - block->layers[k];
+    const double *size = sink->solid->size, s = sink->spacing;
+    BlockRows block = {.rows = {1, 1}, .count = 1};
+    for (int k = 1; k < sink->dimensions; k++)
+        block.along = size[k] > size[block.along] ? k : block.along;
+    for (int a = 0; a < 2; a++) {
+        const int k = block.across[a] = (block.along + 1 + a) % 3;
+        if (k >= sink->dimensions)
+            continue;
+        block.rows[a] = at_least_one(size[k] / s);
+        block.step[a] = size[k] / (double)block.rows[a];
+        block.layers[a] = (long)ceil(sink->depth / block.step[a]);
+        block.count *= fmax(size[k] / s, 1) / (double)block.rows[a];
+    }
+    block.length = size[block.along];
+    block.count *= fmax(block.length / s, 1);
+    return block;
 }
 
-static double block_at(const Block *block, int k, long index)
+static double block_at(long points, double step, long index)
 {
-    return ((double)index - 0.5 * (double)(block->points[k] - 1)) * block->step[k];
+    return ((double)index - 0.5 * (double)(points - 1)) * step;
 }
 
-/* One line along x: the whole line, or only the two ends. */
-static void put_line(Sink *sink, const Block *block, long y, long z, bool whole)
+/* Row number `row`: the whole row, or only the two ends. */
+static void put_row(PointWriter *sink, const BlockRows *block, long row, const double at[2], bool whole)
 {
-    const long points = block->points[0], skip = whole ? points : block->layers[0];
-    for (long x = 0; x < points; x++) {
-        if (x == skip && points - skip > x)
-            x = points - skip;
-        put(sink, block_at(block, 0, x), block_at(block, 1, y), block_at(block, 2, z));
+    const long points =
+        at_least_one(floor(block->count * (double)(row + 1) + 0.5) - floor(block->count * (double)row + 0.5));
+    const double step = block->length / (double)points;
+    const long skip = whole ? points : (long)ceil(sink->depth / step);
+    for (long i = 0; i < points; i++) {
+        double x[3] = {0};
+        if (i == skip && points - skip > i)
+            i = points - skip;
+        x[block->along] = block_at(points, step, i);
+        x[block->across[0]] = at[0], x[block->across[1]] = at[1];
+        put(sink, x[0], x[1], x[2]);
     }
 }
 
-static void put_block(Sink *sink)
+static bool near_side(const BlockRows *block, int a, long index)
 {
-    Block block = {.points = {1, 1, 1}};
-    for (int k = 0; k < sink->dimensions; k++) {
-        block.points[k] = at_least_one(sink->solid->size[k] / sink->spacing);
-        block.step[k] = sink->solid->size[k] / (double)block.points[k];
-        block.layers[k] = (long)ceil(sink->depth / block.step[k]);
-    }
-    for (long z = 0; z < block.points[2]; z++)
-        for (long y = 0; y < block.points[1]; y++)
-            put_line(sink, &block, y, z, near_side(&block, 1, y) || near_side(&block, 2, z));
+    return index < block->layers[a] || index >= block->rows[a] - block->layers[a];
+}
+
+static void put_block(PointWriter *sink)
+{
+    const BlockRows block = block_rows(sink);
+    for (long j = 0, row = 0; j < block.rows[1]; j++)
+        for (long i = 0; i < block.rows[0]; i++, row++)
+            put_row(sink, &block, row,
+                    (double[]){block_at(block.rows[0], block.step[0], i),
+                               block_at(block.rows[1], block.step[1], j)},
+                    near_side(&block, 0, i) || near_side(&block, 1, j));
 }
 
 /* Discs of rings; the middle discs have only the outer rings. */
-static void put_cylinder(Sink *sink)
+static void put_cylinder(PointWriter *sink)
 {
-    const double s = sink->spacing, radius = sink->solid->radius, height = sink->solid->height;
+    const double s = sink->spacing, radius = sink->solid->radius / s, height = sink->solid->height;
     const long discs = at_least_one(height / s);
+    const double step = height / (double)discs, thick = discs > 1 ? step / s : 1;
     for (long d = 0; d < discs; d++) {
-        const double step = height / (double)discs, along = ((double)d - 0.5 * (double)(discs - 1)) * step;
-        const double end = fmin((double)d, (double)(discs - 1 - d)) * step;
-        for (double outer = radius, behind = 0; outer > 0 && (behind < sink->depth || end < sink->depth);
-             outer -= s, behind += s)
-            if (outer > s)
-                put_ring(sink, 1, outer - 0.5 * s, along, 0.7 * (double)d, 2 * M_PI);
-            else if (outer > 0.25 * s)
-                put(sink, 0, along, 0);
+        const double along = ((double)d - 0.5 * (double)(discs - 1)) * step;
+        const bool whole = fmin((double)d, (double)(discs - 1 - d)) * step < sink->depth;
+        double before = (double)d * thick * M_PI * radius * radius;
+        for (double outer = radius; outer > 0 && (whole || (radius - outer) * s < sink->depth); outer--) {
+            const double inner = fmax(outer - 1, 0),
+                         after = before + thick * M_PI * (outer * outer - inner * inner);
+            const long count = between(before, after);
+            put_ring(sink, 1, s * inner, s * outer, radius < 1 ? at_least_one((double)count) : count, along,
+                     0.7 * (double)d, 2 * M_PI);
+            before = after;
+        }
     }
 }
 
 size_t boundary_layers(const SolidDef *solid, int dimensions, double spacing, double depth, float *position)
 {
-    Sink sink = {solid, dimensions, spacing, depth, position, 0};
+    PointWriter sink = {solid, dimensions, spacing, depth, position, 0};
     switch (solid->kind) {
     case SOLID_BOX:
         put_block(&sink);

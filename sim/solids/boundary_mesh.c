@@ -1,7 +1,6 @@
-#include "sim/solids/boundary_mesh.h"
-
-#include "sim/base/sums.h"
+#include "sim/base/base.h"
 #include "sim/mesh/mesh_shape.h"
+#include "sim/solids/solid.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,40 +10,41 @@
 enum { TRIES = 14, ROUNDS = 40 };
 static const double STEP = 0.4;                    /* of the lattice from which points are thrown */
 static const double NEAREST = 0.5, FARTHEST = 1.2; /* range of the least distance between thrown points */
-static const double REACH = 1.7;               /* range of the push: just includes the second neighbours */
-static const double PUSH = 0.12, MOST = 0.1;   /* per round: factor of the push, and greatest way along an
-                                                  axis */
-static const double GAP = 0.86;                /* a place this far from all layers is empty */
-static const double THIN = 0.45, LEAST = 0.02; /* half thickness: too thin for a layer, and for any
-                                                  particle */
+static const double REACH = 1.7;                  /* range of the push: just includes the second neighbours */
+static const double PUSH = 0.12, MOST = 0.1;      /* per round: factor of the push, and greatest way along an
+                                                     axis */
+static const double GAP = 0.86;                   /* a place this far from all layers is empty */
+static const double ASIDE = 0.75, SHARPEST = 0.9; /* of differences for curvature; most of the curvature */
+static const double THIN = 0.45, LEAST = 0.02;    /* half thickness: too thin for a layer, and for any
+                                                     particle */
 
-typedef struct Points {
+typedef struct PointList {
     double (*x)[3];
-    size_t count, room;
-} Points;
+    size_t count, capacity;
+} PointList;
 
 /* The mesh with lengths in spacings. */
-typedef struct Body {
+typedef struct ScaledMesh {
     const DistanceGrid *grid;
     double unit; /* spacings per unit of the mesh */
     double half[3];
-} Body;
+} ScaledMesh;
 
-static double body_at(const Body *body, const double x[3], double slope[3])
+static double body_at(const ScaledMesh *body, const double x[3], double slope[3])
 {
     const double at[3] = {x[0] / body->unit, x[1] / body->unit, x[2] / body->unit};
     return body->unit * distance_at(body->grid, at, slope);
 }
 
-static bool points_add(Points *points, const double x[3])
+static bool points_add(PointList *points, const double x[3])
 {
-    if (points->count == points->room) {
-        const size_t room = points->room ? 2 * points->room : 1024;
-        double(*moved)[3] = realloc(points->x, room * sizeof *moved);
+    if (points->count == points->capacity) {
+        const size_t capacity = points->capacity ? 2 * points->capacity : 1024;
+        double(*moved)[3] = realloc(points->x, capacity * sizeof *moved);
         if (!moved)
             return false;
         points->x = moved;
-        points->room = room;
+        points->capacity = capacity;
     }
     memcpy(points->x[points->count++], x, 3 * sizeof *x);
     return true;
@@ -52,13 +52,13 @@ static bool points_add(Points *points, const double x[3])
 
 /* ---- points by cells ---- */
 
-typedef struct Cells {
+typedef struct PointCells {
     double low[3], side;
     long size[3];
     uint32_t *first, *next; /* index of a point, plus 1; 0: none */
-} Cells;
+} PointCells;
 
-static bool cells_make(Cells *cells, const Body *body, double side, size_t points)
+static bool cells_make(PointCells *cells, const ScaledMesh *body, double side, size_t points)
 {
     cells->side = side;
     for (int k = 0; k < 3; k++) {
@@ -70,32 +70,32 @@ static bool cells_make(Cells *cells, const Body *body, double side, size_t point
     return cells->first && cells->next;
 }
 
-static void cells_free(Cells *cells)
+static void cells_free(PointCells *cells)
 {
     free(cells->first);
     free(cells->next);
 }
 
-static void cells_clear(Cells *cells)
+static void cells_clear(PointCells *cells)
 {
     memset(cells->first, 0,
            (size_t)(cells->size[0] * cells->size[1] * cells->size[2]) * sizeof *cells->first);
 }
 
-static long cell_along(const Cells *cells, int k, double x)
+static long cell_along(const PointCells *cells, int k, double x)
 {
     const long at = (long)floor((x - cells->low[k]) / cells->side);
     return at < 0 ? 0 : at < cells->size[k] ? at : cells->size[k] - 1;
 }
 
-static uint32_t *cell_of(const Cells *cells, const double x[3])
+static uint32_t *cell_of(const PointCells *cells, const double x[3])
 {
     return &cells->first[cell_along(cells, 0, x[0]) +
                          cells->size[0] *
                              (cell_along(cells, 1, x[1]) + cells->size[1] * cell_along(cells, 2, x[2]))];
 }
 
-static void cells_add(Cells *cells, size_t point, const double x[3])
+static void cells_add(PointCells *cells, size_t point, const double x[3])
 {
     uint32_t *first = cell_of(cells, x);
     cells->next[point] = *first;
@@ -105,7 +105,7 @@ static void cells_add(Cells *cells, size_t point, const double x[3])
 /* Called for each point in the cells within `reach` of x, until a call returns false. */
 typedef bool Visit(void *context, size_t point);
 
-static bool cells_visit(const Cells *cells, const double x[3], double reach, Visit *visit, void *context)
+static bool cells_visit(const PointCells *cells, const double x[3], double reach, Visit *visit, void *context)
 {
     long begin[3], end[3], at[3];
     for (int k = 0; k < 3; k++) {
@@ -125,7 +125,7 @@ static bool cells_visit(const Cells *cells, const double x[3], double reach, Vis
 /* ---- throwing points ---- */
 
 /* Move x along the slope to the level; false if the level is not near. */
-static bool to_level(const Body *body, double level, double x[3])
+static bool to_level(const ScaledMesh *body, double level, double x[3])
 {
     for (int i = 0; i < 6; i++) {
         double slope[3];
@@ -146,7 +146,7 @@ typedef bool Take(void *context, const double x[3], double distance);
 
 /* Calls `take` for the lattice points whose distance is from `low` to `high`; false if a call returned
    false. */
-static bool walk(const Body *body, double low, double high, Take *take, void *context)
+static bool walk(const ScaledMesh *body, double low, double high, Take *take, void *context)
 {
     long size[3], i[3];
     for (int k = 0; k < 3; k++)
@@ -166,17 +166,17 @@ static bool walk(const Body *body, double low, double high, Take *take, void *co
     return true;
 }
 
-typedef struct Layer {
-    const Body *body;
+typedef struct LayerBuild {
+    const ScaledMesh *body;
     double level;
-    Points points;
+    PointList points;
     uint32_t thrown;
-} Layer;
+} LayerBuild;
 
 /* Offset from the lattice point at random: else points on a plane face would lie in steps. */
 static bool throw_one(void *context, const double x[3], double distance)
 {
-    Layer *layer = context;
+    LayerBuild *layer = context;
     double at[3];
     (void)distance;
     for (int k = 0; k < 3; k++)
@@ -185,7 +185,7 @@ static bool throw_one(void *context, const double x[3], double distance)
 }
 
 /* Random order, the same in each run. */
-static void shuffle(Points *points)
+static void shuffle(PointList *points)
 {
     for (size_t i = points->count; i > 1; i--) {
         const size_t j = hash_mix((uint32_t)i) % i;
@@ -197,15 +197,15 @@ static void shuffle(Points *points)
 }
 
 /* For is_clear: true if `at` is at least sqrt(apart2) from all points. */
-typedef struct Clear {
+typedef struct ClearanceTest {
     const double (*x)[3];
     const double *at;
     double apart2;
-} Clear;
+} ClearanceTest;
 
 static bool is_clear(void *context, size_t point)
 {
-    const Clear *clear = context;
+    const ClearanceTest *clear = context;
     double d2 = 0;
     for (int k = 0; k < 3; k++)
         d2 += (clear->x[point][k] - clear->at[k]) * (clear->x[point][k] - clear->at[k]);
@@ -213,12 +213,12 @@ static bool is_clear(void *context, size_t point)
 }
 
 /* Mark the points at least `apart` from all points marked before; returns the number of marked points. */
-static size_t thin(const Points *points, Cells *cells, double apart, bool *kept)
+static size_t thin(const PointList *points, PointCells *cells, double apart, bool *kept)
 {
     size_t count = 0;
     cells_clear(cells);
     for (size_t i = 0; i < points->count; i++) {
-        Clear clear = {(const double(*)[3])points->x, points->x[i], apart * apart};
+        ClearanceTest clear = {(const double(*)[3])points->x, points->x[i], apart * apart};
         kept[i] = cells_visit(cells, points->x[i], apart, is_clear, &clear);
         if (kept[i])
             cells_add(cells, i, points->x[i]);
@@ -228,7 +228,7 @@ static size_t thin(const Points *points, Cells *cells, double apart, bool *kept)
 }
 
 /* Thin to `wanted` points, as nearly as possible. */
-static void thin_to(Points *points, Cells *cells, size_t wanted, bool *kept)
+static void thin_to(PointList *points, PointCells *cells, size_t wanted, bool *kept)
 {
     double low = NEAREST, high = FARTHEST;
     size_t count = 0;
@@ -250,15 +250,15 @@ static void thin_to(Points *points, Cells *cells, size_t wanted, bool *kept)
 
 /* ---- pushing points apart ---- */
 
-typedef struct Push {
+typedef struct PointPush {
     const double (*x)[3];
     size_t of;
     double sum[3];
-} Push;
+} PointPush;
 
 static bool push_from(void *context, size_t point)
 {
-    Push *push = context;
+    PointPush *push = context;
     double d[3], d2 = 0;
     for (int k = 0; k < 3; k++) {
         d[k] = push->x[push->of][k] - push->x[point][k];
@@ -273,14 +273,14 @@ static bool push_from(void *context, size_t point)
 }
 
 /* One round of pushes: all use the positions before the round. */
-static void relax(const Layer *layer, Cells *cells, double (*moved)[3])
+static void relax(const LayerBuild *layer, PointCells *cells, double (*moved)[3])
 {
-    const Points *points = &layer->points;
+    const PointList *points = &layer->points;
     cells_clear(cells);
     for (size_t i = 0; i < points->count; i++)
         cells_add(cells, i, points->x[i]);
     for (size_t i = 0; i < points->count; i++) {
-        Push push = {.x = (const double(*)[3])points->x, .of = i};
+        PointPush push = {.x = (const double(*)[3])points->x, .of = i};
         cells_visit(cells, points->x[i], REACH, push_from, &push);
         for (int k = 0; k < 3; k++)
             moved[i][k] = points->x[i][k] + fmin(fmax(push.sum[k], -MOST), MOST);
@@ -292,10 +292,10 @@ static void relax(const Layer *layer, Cells *cells, double (*moved)[3])
 
 /* ---- layers ---- */
 
-static bool even(Layer *layer, size_t wanted)
+static bool even(LayerBuild *layer, size_t wanted)
 {
-    Points *points = &layer->points;
-    Cells cells;
+    PointList *points = &layer->points;
+    PointCells cells;
     bool *kept = malloc(points->count + 1);
     double(*moved)[3] = malloc((points->count + 1) * sizeof *moved);
     bool ok = cells_make(&cells, layer->body, 1, points->count) && kept && moved;
@@ -312,7 +312,7 @@ static bool even(Layer *layer, size_t wanted)
 }
 
 /* Area of the level, from the volume of a shell around the level. */
-static double area_of(const Body *body, double level)
+static double area_of(const ScaledMesh *body, double level)
 {
     const double unit = body->unit, half = fmax(0.25, body->grid->cell * unit);
     const double volume = distance_volume_below(body->grid, (-level - half) / unit) -
@@ -320,28 +320,46 @@ static double area_of(const Body *body, double level)
     return volume * unit * unit * unit / (2 * half);
 }
 
-static bool add_layer(const Body *body, double level, Points *all)
+/* Move x to the middle of the matter of its layer. Behind a curved surface there is more of the matter in the
+   outer half, by a twelfth of the sum of curvatures: as mean_radius of sim/solids/boundary.c. */
+static void to_matter(const ScaledMesh *body, double x[3])
 {
-    Layer layer = {.body = body, .level = level};
+    double slope[3], bend = 0;
+    const double d = body_at(body, x, slope);
+    for (int k = 0; k < 3; k++)
+        for (int side = -1; side <= 1; side += 2) {
+            double at[3] = {x[0], x[1], x[2]};
+            at[k] += side * ASIDE;
+            bend += (body_at(body, at, NULL) - d) / (ASIDE * ASIDE);
+        }
+    for (int k = 0; k < 3; k++)
+        x[k] += fmin(fmax(bend, -SHARPEST), SHARPEST) / 12 * slope[k];
+}
+
+static bool add_layer(const ScaledMesh *body, double level, PointList *all)
+{
+    LayerBuild layer = {.body = body, .level = level};
     bool ok = walk(body, level - 0.7, level + 0.7, throw_one, &layer) &&
               (layer.points.count == 0 || even(&layer, (size_t)lround(area_of(body, level))));
-    for (size_t i = 0; ok && i < layer.points.count; i++)
+    for (size_t i = 0; ok && i < layer.points.count; i++) {
+        to_matter(body, layer.points.x[i]);
         ok = points_add(all, layer.points.x[i]);
+    }
     free(layer.points.x);
     return ok;
 }
 
 /* ---- gaps without a layer ---- */
 
-typedef struct Gaps {
-    const Body *body;
-    Cells cells;
-    Points *all;
-    size_t room;
-} Gaps;
+typedef struct GapFill {
+    const ScaledMesh *body;
+    PointCells cells;
+    PointList *all;
+    size_t capacity;
+} GapFill;
 
 /* Move x inwards to the middle of a part too thin for a layer; false if there is no such part. */
-static bool to_middle(const Body *body, double x[3])
+static bool to_middle(const ScaledMesh *body, double x[3])
 {
     double deepest = INFINITY, at[3] = {x[0], x[1], x[2]};
     for (int i = 0; i < 8; i++) {
@@ -362,12 +380,12 @@ static bool to_middle(const Body *body, double x[3])
 
 static bool fill_gap(void *context, const double at[3], double distance)
 {
-    Gaps *gaps = context;
+    GapFill *gaps = context;
     double x[3] = {at[0], at[1], at[2]};
-    Clear clear = {(const double(*)[3])gaps->all->x, x, GAP * GAP};
+    ClearanceTest clear = {(const double(*)[3])gaps->all->x, x, GAP * GAP};
     if (distance > -THIN && !to_middle(gaps->body, x))
         return true;
-    if (gaps->all->count == gaps->room || !cells_visit(&gaps->cells, x, GAP, is_clear, &clear))
+    if (gaps->all->count == gaps->capacity || !cells_visit(&gaps->cells, x, GAP, is_clear, &clear))
         return true;
     if (!points_add(gaps->all, x))
         return false;
@@ -375,11 +393,11 @@ static bool fill_gap(void *context, const double at[3], double distance)
     return true;
 }
 
-static bool fill_gaps(const Body *body, double deepest, Points *all)
+static bool fill_gaps(const ScaledMesh *body, double deepest, PointList *all)
 {
     const double most = 8 * (body->half[0] + 1) * (body->half[1] + 1) * (body->half[2] + 1);
-    Gaps gaps = {.body = body, .all = all, .room = all->count + (size_t)(4 * most) + 64};
-    bool ok = cells_make(&gaps.cells, body, 1, gaps.room);
+    GapFill gaps = {.body = body, .all = all, .capacity = all->count + (size_t)(4 * most) + 64};
+    bool ok = cells_make(&gaps.cells, body, 1, gaps.capacity);
     for (size_t i = 0; ok && i < all->count; i++)
         cells_add(&gaps.cells, i, all->x[i]);
     ok = ok && walk(body, deepest, 0.5 * STEP, fill_gap, &gaps);
@@ -390,8 +408,8 @@ static bool fill_gaps(const Body *body, double deepest, Points *all)
 float *boundary_mesh_layers(const MeshUse *mesh, double spacing, double depth, size_t *count)
 {
     const MeshShape *shape = mesh->shape;
-    Body body = {.grid = &shape->distance, .unit = mesh->scale / spacing};
-    Points all = {0};
+    ScaledMesh body = {.grid = &shape->distance, .unit = mesh->scale / spacing};
+    PointList all = {0};
     const double core = -shape->depth * body.unit;
     double level = -0.5;
     bool ok = true;

@@ -1,4 +1,4 @@
-#include "sim/box/box_step.h"
+#include "sim/box/box.h"
 #include "sim/solids/solid.h"
 
 #include <math.h>
@@ -121,19 +121,19 @@ void solid_acceleration_at(const SolidStep *step, const float x[3], float a[3])
 }
 
 /* A particle's way through the solid's frame, taken as straight although the solid's motion bends the way. */
-typedef struct Way {
+typedef struct PointPath {
     const SolidDef *solid;
     int dimensions;
     double from[3], to[3];
-} Way;
+} PointPath;
 
-static void along(const Way *way, double t, double x[3])
+static void along(const PointPath *way, double t, double x[3])
 {
     for (int k = 0; k < 3; k++)
         x[k] = way->from[k] + t * (way->to[k] - way->from[k]);
 }
 
-static double distance_on(const Way *way, double t)
+static double distance_on(const PointPath *way, double t)
 {
     double x[3];
     along(way, t, x);
@@ -142,7 +142,7 @@ static double distance_on(const Way *way, double t)
 
 /* The first part of the way, 0 .. 1, where the way meets the surface; more than 1: nowhere. Goes forward by
    the distance to the surface: no meeting can be sooner. */
-static double meeting(const Way *way, double length, double slack)
+static double meeting(const PointPath *way, double length, double slack)
 {
     double t = 0;
     for (int i = 0; i < 64 && t <= 1; i++) {
@@ -156,7 +156,7 @@ static double meeting(const Way *way, double length, double slack)
 
 /* Push `to` out of the solid. Where the surface bends towards the way, the tangent plane is a little inside.
    At edges of a mesh the distance grows more slowly than the way: more than one round is needed. */
-static void leave(Way *way, double slack, double normal[3])
+static void leave(PointPath *way, double slack, double normal[3])
 {
     for (int i = 0; i < LEAVES; i++) {
         const double depth = -solid_distance(way->solid, way->dimensions, way->to);
@@ -170,7 +170,7 @@ static void leave(Way *way, double slack, double normal[3])
 
 /* Put `to` a little above the tangent plane at the meeting with the surface, unless `to` is above already.
    False if the way keeps clear of the solid. */
-static bool hold(Way *way, double normal[3])
+static bool hold(PointPath *way, double normal[3])
 {
     const double reach = solid_reach(way->solid), slack = 1e-6 * reach;
     const double d[3] = {way->to[0] - way->from[0], way->to[1] - way->from[1], way->to[2] - way->from[2]};
@@ -219,7 +219,7 @@ static bool out_of_reach(const SolidStep *step, const float before[3], const flo
 }
 
 /* The same for a block, possibly long and thin: true if one side alone is far enough away. */
-static bool beside_block(const SolidDef *solid, const Way *way)
+static bool beside_block(const SolidDef *solid, const PointPath *way)
 {
     double gap = 0, way2 = 0;
     if (solid->kind != SOLID_BOX)
@@ -232,7 +232,7 @@ static bool beside_block(const SolidDef *solid, const Way *way)
     return gap > 0 && gap * gap > 5 * way2;
 }
 
-static void place(const SolidPose *pose, const Way *way, const double normal[3], float x[3], float v[3])
+static void place(const SolidPose *pose, const PointPath *way, const double normal[3], float x[3], float v[3])
 {
     float in_solid[3], out[3], wall[3], into = 0;
     store(way->to, in_solid);
@@ -253,7 +253,7 @@ bool solid_guard(const SolidDef *solid, const SolidStep *step, int dimensions, c
     const float reach = (float)solid_reach(solid);
     if (out_of_reach(step, before, x, reach))
         return false;
-    Way way = {.solid = solid, .dimensions = dimensions};
+    PointPath way = {.solid = solid, .dimensions = dimensions};
     float from[3], to[3];
     solid_from_box(&step->begin, before, from);
     solid_from_box(&step->end, x, to);

@@ -1,5 +1,6 @@
-#include "sim/base/parallel.h"
-#include "sim/start/rest.h"
+#include "sim/start/start.h"
+
+#include "sim/base/base.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -43,15 +44,15 @@ static void weigh(Balance *b, const double *density, double *diagonal)
     }
 }
 
-typedef struct Rows {
+typedef struct MatrixRows {
     const Balance *balance;
     const double *x;
     double *out;
-} Rows;
+} MatrixRows;
 
 static void apply_rows(void *context, size_t begin, size_t end)
 {
-    const Rows *rows = context;
+    const MatrixRows *rows = context;
     const Balance *b = rows->balance;
     const double *x = rows->x;
     for (size_t i = begin; i < end; i++) {
@@ -65,7 +66,7 @@ static void apply_rows(void *context, size_t begin, size_t end)
 /* out = A x: the sum over faces of the face's weight times the fall of x through the face. */
 static void apply(const Balance *b, const double *x, double *out)
 {
-    Rows rows = {b, x, out};
+    MatrixRows rows = {b, x, out};
     parallel_ranges(parallel_processors(), b->touches.count, 4096, apply_rows, &rows);
 }
 

@@ -1,4 +1,4 @@
-#include "sim/start/fill.h"
+#include "sim/start/start.h"
 
 #include "sim/mesh/mesh_shape.h"
 
@@ -16,12 +16,13 @@ enum {
 static const double near = 0.75, on_face = 1e-3, slack = 1e-6;
 
 /* Fills connected by touching. */
-typedef struct Group {
-    const Fill *fills[GROUP_MAX];
+typedef struct BlockGroup {
     int count;
     bool has_block;
     double low[3], high[3]; /* outermost faces of the group's blocks, m */
-} Group;
+    const Fill *fills[GROUP_MAX];
+    bool has[GROUP_MAX + 1]; /* by number_of */
+} BlockGroup;
 
 static double wall_low(const WorldDef *def, int k)
 {
@@ -47,17 +48,36 @@ static bool fills_touch(const WorldDef *def, const Fill *a, const Fill *b)
     return true;
 }
 
-static bool group_has(const Group *group, const Fill *fill)
+static int count_of_fills(const WorldDef *def)
 {
-    for (int i = 0; i < group->count; i++)
-        if (group->fills[i] == fill)
-            return true;
-    return false;
+    int count = 0;
+    for (int f = 0; f < def->fluid_count; f++)
+        count += def->fluids[f].fill_count;
+    return count;
 }
 
-static void group_add(const WorldDef *def, Group *group, const Fill *fill)
+/* The number of the fill among all fills of the def; of a fill elsewhere, the count of fills. */
+static int number_of(const WorldDef *def, const Fill *fill)
+{
+    int number = 0;
+    for (int f = 0; f < def->fluid_count; f++)
+        for (int i = 0; i < def->fluids[f].fill_count; i++, number++)
+            if (&def->fluids[f].fills[i] == fill)
+                return number;
+    return number;
+}
+
+static void group_begin(const WorldDef *def, BlockGroup *group)
+{
+    group->count = 0;
+    group->has_block = false;
+    memset(group->has, 0, (size_t)count_of_fills(def) * sizeof *group->has);
+}
+
+static void group_add(const WorldDef *def, BlockGroup *group, const Fill *fill, int number)
 {
     group->fills[group->count++] = fill;
+    group->has[number] = true;
     if (fill->kind != FILL_BLOCK)
         return;
     for (int k = 0; k < 3; k++) {
@@ -68,18 +88,19 @@ static void group_add(const WorldDef *def, Group *group, const Fill *fill)
     group->has_block = true;
 }
 
-static void group_of(const WorldDef *def, const Fill *fill, Group *group)
+static void group_of(const WorldDef *def, const Fill *fill, BlockGroup *group)
 {
-    group->count = 0;
-    group->has_block = false;
-    group_add(def, group, fill);
-    for (int member = 0; member < group->count; member++)
+    group_begin(def, group);
+    group_add(def, group, fill, number_of(def, fill));
+    for (int member = 0; member < group->count; member++) {
+        int number = 0;
         for (int f = 0; f < def->fluid_count; f++)
-            for (int i = 0; i < def->fluids[f].fill_count; i++) {
+            for (int i = 0; i < def->fluids[f].fill_count; i++, number++) {
                 const Fill *other = &def->fluids[f].fills[i];
-                if (!group_has(group, other) && fills_touch(def, group->fills[member], other))
-                    group_add(def, group, other);
+                if (!group->has[number] && fills_touch(def, group->fills[member], other))
+                    group_add(def, group, other, number);
             }
+    }
 }
 
 /* Axis k of the box's lattice. */
@@ -93,7 +114,7 @@ static FillAxis box_axis(const WorldDef *def, int k)
 }
 
 /* Greatest distance of a face of the group's blocks from the nearest face of a layer, in layers. */
-static double misfit(const WorldDef *def, const Group *group, int k, double first, double step)
+static double misfit(const WorldDef *def, const BlockGroup *group, int k, double first, double step)
 {
     double worst = 0;
     for (int i = 0; i < group->count; i++) {
@@ -116,14 +137,14 @@ static double cell_of(const WorldDef *def, const FillAxis axes[3])
 }
 
 /* Candidates for an axis: the box's layers, or whole numbers of layers between the outermost faces. */
-typedef struct Choice {
+typedef struct StepChoice {
     int count;
     FillAxis axis[2 * SPREAD + 1];
     /* difference of the step from the spacing, plus misfit of the group's inner faces */
     double cost[2 * SPREAD + 1];
-} Choice;
+} StepChoice;
 
-static FillAxis whole_layers(const WorldDef *def, const Group *group, int k, double n)
+static FillAxis whole_layers(const WorldDef *def, const BlockGroup *group, int k, double n)
 {
     const double step = (group->high[k] - group->low[k]) / n, first = group->low[k] + 0.5 * step;
     const double wall = wall_low(def, k);
@@ -133,14 +154,15 @@ static FillAxis whole_layers(const WorldDef *def, const Group *group, int k, dou
                       .end = (long)floor((wall + def->box_size[k] - first) / step - 0.5 + on_face) + 1};
 }
 
-static void choice_add(const WorldDef *def, const Group *group, int k, const FillAxis *axis, Choice *choice)
+static void choice_add(const WorldDef *def, const BlockGroup *group, int k, const FillAxis *axis,
+                       StepChoice *choice)
 {
     const double off = group->has_block ? misfit(def, group, k, axis->first, axis->step) : 0;
     choice->cost[choice->count] = (off > on_face ? off : 0) + fabs(log(axis->step / def->spacing));
     choice->axis[choice->count++] = *axis;
 }
 
-static void choose_from(const WorldDef *def, const Group *group, int k, Choice *choice)
+static void choose_from(const WorldDef *def, const BlockGroup *group, int k, StepChoice *choice)
 {
     const FillAxis box = box_axis(def, k);
     choice->count = 0;
@@ -161,16 +183,16 @@ static void choose_from(const WorldDef *def, const Group *group, int k, Choice *
 }
 
 /* Choose the layers whose volume per point is nearest to a particle's, then the most even layers. */
-static void group_axes(const WorldDef *def, const Group *group, FillAxis axes[3])
+static void group_axes(const WorldDef *def, const BlockGroup *group, FillAxis axes[3])
 {
     static const double weight = 4; /* weight of the volume */
     const int depth = def->dimensions == 3;
-    Choice choice[3] = {{0}};
+    StepChoice choice[3] = {{0}};
     double least = INFINITY;
     for (int k = 0; k < 2 + depth; k++)
         choose_from(def, group, k, &choice[k]);
     if (!depth)
-        choice[2] = (Choice){.count = 1, .axis = {{.step = def->spacing, .end = 1}}};
+        choice[2] = (StepChoice){.count = 1, .axis = {{.step = def->spacing, .end = 1}}};
     for (int k = 0; k < 3; k++)
         axes[k] = choice[k].axis[0];
     for (int a = 0; a < choice[0].count; a++)
@@ -197,7 +219,7 @@ static bool touches(const WorldDef *def, double place, double wall)
 
 /* Spread the layers along an axis with a free side, from the other side on, so that a point has a particle's
    volume; upwards first. */
-static void keep_volume(const WorldDef *def, const Group *group, FillAxis axes[3])
+static void keep_volume(const WorldDef *def, const BlockGroup *group, FillAxis axes[3])
 {
     static const int order[3] = {1, 0, 2};
     const double cell = cell_of(def, axes);
@@ -221,7 +243,7 @@ static void keep_volume(const WorldDef *def, const Group *group, FillAxis axes[3
 
 void fill_lattice(const WorldDef *def, const Fill *fill, FillAxis axes[3])
 {
-    Group group;
+    BlockGroup group;
     double low[3] = {0}, high[3] = {0};
     assert(def->dimensions <= 3);
     group_of(def, fill, &group);
@@ -243,7 +265,7 @@ static bool blocks_overlap(const WorldDef *def, const Fill *a, const Fill *b)
 }
 
 /* True if the group has only blocks, without overlaps. */
-static bool is_pile(const WorldDef *def, const Group *group)
+static bool is_pile(const WorldDef *def, const BlockGroup *group)
 {
     for (int i = 0; i < group->count; i++)
         for (int j = 0; j <= i; j++)
@@ -255,17 +277,19 @@ static bool is_pile(const WorldDef *def, const Group *group)
 
 bool fill_pile(const WorldDef *def, const Fill *fill, const FillAxis axes[3], FillPile *pile)
 {
-    Group group;
+    BlockGroup group;
     double worst = 0;
     group_of(def, fill, &group);
     for (int k = 0; k < def->dimensions && group.count > 1; k++)
         worst = fmax(worst, misfit(def, &group, k, axes[k].first, axes[k].step));
-    *pile = (FillPile){.dimensions = def->dimensions};
+    pile->dimensions = def->dimensions;
+    pile->count = 0;
     if (worst <= on_face || !is_pile(def, &group))
         return false;
+    int number = 0;
     for (int f = 0; f < def->fluid_count; f++) /* the same order for each fill of the pile */
-        for (int i = 0; i < def->fluids[f].fill_count; i++)
-            if (group_has(&group, &def->fluids[f].fills[i]))
+        for (int i = 0; i < def->fluids[f].fill_count; i++, number++)
+            if (group.has[number])
                 pile->blocks[pile->count++] = &def->fluids[f].fills[i];
     memcpy(pile->axes, axes, sizeof pile->axes);
     return true;
@@ -307,7 +331,7 @@ const Fill *fill_pile_owner(const FillPile *pile, const long index[3])
     return all > 1 - on_face ? owner : NULL;
 }
 
-static double volume_of_blocks(const WorldDef *def, const Group *group)
+static double volume_of_blocks(const WorldDef *def, const BlockGroup *group)
 {
     double volume = 0;
     for (int i = 0; i < group->count; i++)
@@ -317,14 +341,15 @@ static double volume_of_blocks(const WorldDef *def, const Group *group)
 }
 
 /* The group with the greatest volume of blocks; without a block, has_block is false. */
-static void largest_group(const WorldDef *def, Group *largest)
+static void largest_group(const WorldDef *def, BlockGroup *largest)
 {
     double most = 0;
-    *largest = (Group){.count = 0};
+    int number = 0;
+    BlockGroup group;
+    group_begin(def, largest);
     for (int f = 0; f < def->fluid_count; f++)
-        for (int i = 0; i < def->fluids[f].fill_count; i++) {
-            Group group;
-            if (group_has(largest, &def->fluids[f].fills[i]))
+        for (int i = 0; i < def->fluids[f].fill_count; i++, number++) {
+            if (largest->has[number])
                 continue;
             group_of(def, &def->fluids[f].fills[i], &group);
             const double volume = volume_of_blocks(def, &group);
@@ -347,7 +372,8 @@ static double root_near_one(double x, int power)
 /* The spacing at which the lattice chosen for `spacing` has a particle's volume per point. Writes the
    greatest relative difference of a step from the result to *uneven, and the misfit of the group's inner
    faces to *off. Returns 0 if the result gives a different lattice. */
-static double fit_at(const WorldDef *def, const Group *group, double spacing, double *uneven, double *off)
+static double fit_at(const WorldDef *def, const BlockGroup *group, double spacing, double *uneven,
+                     double *off)
 {
     WorldDef at = *def;
     FillAxis axes[3];
@@ -366,7 +392,7 @@ static double fit_at(const WorldDef *def, const Group *group, double spacing, do
 
 double fill_lattice_fit(const WorldDef *def, double *uneven)
 {
-    Group group;
+    BlockGroup group;
     double off;
     *uneven = 0;
     largest_group(def, &group);
@@ -376,7 +402,7 @@ double fill_lattice_fit(const WorldDef *def, double *uneven)
 double fill_lattice_spacing(const WorldDef *def)
 {
     enum { TRIES = 200 };
-    Group group;
+    BlockGroup group;
     FillAxis axes[3];
     largest_group(def, &group);
     group_axes(def, &group, axes);
@@ -472,24 +498,24 @@ static bool mesh_holds(const Fill *fill, const double x[3])
 /* Lattice points ask for the same few formulas in a row, and a column of points for the same height. So each
    thread keeps the formulas read last, and the last value of each. */
 enum { FORMULAS_KEPT = 4 };
-typedef struct Height {
+typedef struct HeightFormula {
     char text[FORMULA_SIZE];
     Formula formula; /* no steps: the text is no valid formula */
     double x, z, y;
-} Height;
+} HeightFormula;
 
-static void height_read(Height *height, const char *text)
+static void height_read(HeightFormula *height, const char *text)
 {
     Error error;
-    *height = (Height){.x = NAN};
+    *height = (HeightFormula){.x = NAN};
     memcpy(height->text, text, strlen(text) + 1);
     if (!formula_read(text, "xz", &height->formula, &error))
         height->formula.count = 0;
 }
 
-static Height *height_of(const char text[FORMULA_SIZE])
+static HeightFormula *height_of(const char text[FORMULA_SIZE])
 {
-    static _Thread_local Height kept[FORMULAS_KEPT];
+    static _Thread_local HeightFormula kept[FORMULAS_KEPT];
     static _Thread_local int last, next;
     if (strcmp(kept[last].text, text) == 0)
         return &kept[last];
@@ -510,7 +536,7 @@ bool fill_ends(const Fill *fill, double x, double z, double *y)
     }
     if (!formula_given(fill->below) || strlen(fill->below) >= FORMULA_SIZE) /* the name of a table */
         return false;
-    Height *height = height_of(fill->below);
+    HeightFormula *height = height_of(fill->below);
     if (height->formula.count == 0)
         return false;
     if (height->x != x || height->z != z) {

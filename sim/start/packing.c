@@ -1,4 +1,5 @@
-#include "sim/start/rest.h"
+#include "sim/start/start.h"
+
 #include "slosh/def.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@ static const double MOST = 0.1;   /* greatest way along an axis per round, spaci
 static const double WHOLE = 0.95; /* least fullness of a particle to move */
 
 /* Fluid first, then boundary particles, in cells of a support radius. */
-typedef struct Crowd {
+typedef struct PackingJob {
     size_t fluid, count;
     float *position; /* 3 each */
     uint32_t *near;  /* fluid particles allowed to move */
@@ -23,7 +24,7 @@ typedef struct Crowd {
     double h;
     const WorldDef *def;
     BoxState pose[SOLIDS_MAX]; /* of the solids, at the start */
-} Crowd;
+} PackingJob;
 
 static void to_solid(const BoxState *pose, const float *x, double out[3])
 {
@@ -57,7 +58,7 @@ static bool in_box(const WorldDef *def, const float *x)
 }
 
 /* Boundary particles visible to fluid: not behind walls, nor in a solid named earlier. */
-static void add_boundary(Crowd *crowd, const Boundary *boundary)
+static void add_boundary(PackingJob *crowd, const Boundary *boundary)
 {
     const BoxState *pose = crowd->pose;
     for (size_t b = 0; b < boundary->count; b++) {
@@ -73,7 +74,7 @@ static void add_boundary(Crowd *crowd, const Boundary *boundary)
     }
 }
 
-static void cell_of(const Crowd *crowd, const float *x, int cell[3])
+static void cell_of(const PackingJob *crowd, const float *x, int cell[3])
 {
     for (int a = 0; a < 3; a++) {
         const double low = a == 1 ? 0 : -0.5 * crowd->def->box_size[a], at = ((double)x[a] - low) / crowd->h;
@@ -83,17 +84,17 @@ static void cell_of(const Crowd *crowd, const float *x, int cell[3])
     }
 }
 
-static size_t cell_at(const Crowd *crowd, int x, int y, int z)
+static size_t cell_at(const PackingJob *crowd, int x, int y, int z)
 {
     return ((size_t)z * (size_t)crowd->cells[1] + (size_t)y) * (size_t)crowd->cells[0] + (size_t)x;
 }
 
-static size_t cell_count(const Crowd *crowd)
+static size_t cell_count(const PackingJob *crowd)
 {
     return cell_at(crowd, 0, 0, crowd->cells[2]);
 }
 
-static void sort(Crowd *crowd)
+static void sort(PackingJob *crowd)
 {
     const size_t cells = cell_count(crowd);
     int c[3];
@@ -111,7 +112,7 @@ static void sort(Crowd *crowd)
 }
 
 /* Add the sums over a cell: of V0 F x_ij, 1/m, and in out[3] of V0 F r^2 over the dimensions: how full. */
-static void sum_cell(const Crowd *crowd, const Lattice *lattice, uint32_t i, size_t cell, double out[4])
+static void sum_cell(const PackingJob *crowd, const Lattice *lattice, uint32_t i, size_t cell, double out[4])
 {
     const float *x = crowd->position + 3 * (size_t)i;
     for (uint32_t at = crowd->begin[cell]; at < crowd->begin[cell + 1]; at++) {
@@ -129,7 +130,7 @@ static void sum_cell(const Crowd *crowd, const Lattice *lattice, uint32_t i, siz
     }
 }
 
-static void find_way(const Crowd *crowd, const Lattice *lattice, uint32_t i, double way[3])
+static void find_way(const PackingJob *crowd, const Lattice *lattice, uint32_t i, double way[3])
 {
     const double spacing = crowd->def->spacing, most = MOST * spacing;
     double sum[4] = {0};
@@ -145,11 +146,11 @@ static void find_way(const Crowd *crowd, const Lattice *lattice, uint32_t i, dou
         way[a] = sum[3] < WHOLE ? 0 : fmin(fmax(PART * spacing * spacing * sum[a], -most), most);
 }
 
-static bool crowd_create(Crowd *crowd, const Packing *packing, size_t count, const uint8_t *fluid,
+static bool crowd_create(PackingJob *crowd, const Packing *packing, size_t count, const uint8_t *fluid,
                          const float *position)
 {
     const WorldDef *def = packing->def;
-    *crowd = (Crowd){.fluid = count, .count = count, .h = def->support * def->spacing, .def = def};
+    *crowd = (PackingJob){.fluid = count, .count = count, .h = def->support * def->spacing, .def = def};
     for (int a = 0; a < 3; a++)
         crowd->cells[a] = a < def->dimensions ? (int)fmax(1, floor(def->box_size[a] / crowd->h)) : 1;
     const size_t all = count + packing->boundary->count;
@@ -170,7 +171,7 @@ static bool crowd_create(Crowd *crowd, const Packing *packing, size_t count, con
     return crowd->way;
 }
 
-static void crowd_destroy(Crowd *crowd)
+static void crowd_destroy(PackingJob *crowd)
 {
     free(crowd->position);
     free(crowd->order);
@@ -180,7 +181,7 @@ static void crowd_destroy(Crowd *crowd)
 }
 
 /* Take all ways at once, except ways into a solid. */
-static void take_ways(Crowd *crowd)
+static void take_ways(PackingJob *crowd)
 {
     const WorldDef *def = crowd->def;
     for (size_t k = 0; k < crowd->near_count; k++) {
@@ -194,7 +195,7 @@ static void take_ways(Crowd *crowd)
 
 bool packing_settle(const Packing *packing, size_t count, const uint8_t *fluid, float *position)
 {
-    Crowd crowd;
+    PackingJob crowd;
     const bool ok = crowd_create(&crowd, packing, count, fluid, position);
     for (int round = 0; ok && round < ROUNDS; round++) {
         sort(&crowd);

@@ -1,7 +1,6 @@
-#include "sim/start/seed.h"
+#include "sim/start/start.h"
 
-#include "sim/base/sums.h"
-#include "sim/start/fill.h"
+#include "sim/base/base.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,13 +9,13 @@
 static const double slack = 1e-6;
 
 /* Solids of a def at the start. */
-typedef struct Stand {
+typedef struct SolidPoses {
     const WorldDef *def;
     BoxState pose[SOLIDS_MAX];
-} Stand;
+} SolidPoses;
 
 /* True if x is at least half a spacing away from all solids, as from walls. */
-static bool is_free(const Stand *stand, const double x[3])
+static bool is_free(const SolidPoses *stand, const double x[3])
 {
     const WorldDef *def = stand->def;
     for (int k = 0; k < def->solid_count; k++) {
@@ -104,7 +103,7 @@ static size_t block_count(const WorldDef *def, const Fill *block, const FillAxis
     return count;
 }
 
-static size_t seed_fill(const Stand *stand, int fluid, int index, float *position)
+static size_t seed_fill(const SolidPoses *stand, int fluid, int index, float *position)
 {
     const WorldDef *def = stand->def;
     const Fill *fill = &def->fluids[fluid].fills[index];
@@ -150,7 +149,7 @@ bool seed_lacks_height(const WorldDef *def, const Fill *fill, double at[2])
 {
     Fill shape = *fill;
     FillAxis axes[3];
-    *shape.below = 0;
+    shape.below = NULL;
     shape.heights = NULL;
     fill_lattice(def, fill, axes);
     for (long k = axes[2].begin; k < axes[2].end; k++)
@@ -166,7 +165,7 @@ bool seed_lacks_height(const WorldDef *def, const Fill *fill, double at[2])
     return false;
 }
 
-static void stand_make(const WorldDef *def, Stand *stand)
+static void stand_make(const WorldDef *def, SolidPoses *stand)
 {
     stand->def = def;
     for (int k = 0; k < def->solid_count; k++)
@@ -175,7 +174,7 @@ static void stand_make(const WorldDef *def, Stand *stand)
 
 void seed_counts(const WorldDef *def, size_t counts[FLUIDS_MAX])
 {
-    Stand stand;
+    SolidPoses stand;
     stand_make(def, &stand);
     for (int f = 0; f < def->fluid_count; f++) {
         counts[f] = 0;
@@ -187,7 +186,7 @@ void seed_counts(const WorldDef *def, size_t counts[FLUIDS_MAX])
 size_t seed_lattice(const WorldDef *def, float *position, uint8_t *fluid)
 {
     size_t count = 0;
-    Stand stand;
+    SolidPoses stand;
     stand_make(def, &stand);
     for (int f = 0; f < def->fluid_count; f++)
         for (int i = 0; i < def->fluids[f].fill_count; i++) {

@@ -1,20 +1,165 @@
-/* A backend: holds the particles and computes. A backend is a const table of coarse operations; no
-   operation is called per particle. */
+/* Backends: numbering of cells, contributions of a particle to sums and gauges, columns on the host, and
+   the table of a backend's operations. */
 #ifndef SIM_STEP_BACKEND_H
 #define SIM_STEP_BACKEND_H
 
 #include "sim/base/key.h"
-#include "sim/box/box_step.h"
+#include "sim/box/box.h"
 #include "sim/flow/flow.h"
 #include "sim/solids/solid.h"
 #include "sim/step/constants.h"
 #include "sim/step/method.h"
-#include "sim/step/step_control.h"
 #include "slosh/state.h"
 #include "slosh/world.h"
 
+#include <math.h>
+
+/* Numbering of cells for counting particles. With few cells per particle, each cell has its own place: the
+   cell number. In a mostly empty box, cells share a table with some places per particle, as in Teschner et
+   al., "Optimized spatial hashing for collision detection of deformable objects", 2003. So empty space
+   costs neither time nor memory.
+
+   Cells of a row along x stay contiguous in the table, and no two cells of a walk share a place. So a walk
+   meets each particle once, and some particles of distant cells, further away than h. Sums over neighbours
+   have the same terms in the same order as without a table. */
+
+typedef struct CellFold {
+    uint32_t y, z, mask; /* cell (i, j, k) of the grid is at ((y j + z k) & mask) + i */
+    size_t count;        /* of places */
+    bool shared;         /* cells share places */
+} CellFold;
+
+/* A fold for `particles` particles. */
+CellFold cell_fold(const Constants *constants, size_t particles);
+
+static inline uint32_t cell_fold_at(const CellFold *fold, uint32_t x, uint32_t y, uint32_t z)
+{
+    return ((fold->y * y + fold->z * z) & fold->mask) + x;
+}
+
+/* Place of a cell number; one past all places for a number past all cells. */
+static inline uint32_t cell_fold_of(const CellFold *fold, const CellGrid *cells, uint32_t cell)
+{
+    const uint32_t width = (uint32_t)cells->size[0], height = (uint32_t)cells->size[1];
+    if (!fold->shared)
+        return cell;
+    if (cell >= cells->count)
+        return (uint32_t)fold->count;
+    return cell_fold_at(fold, cell % width, cell / width % height, cell / width / height);
+}
+
+/* Particles next to a cell of the grid, also across periodic sides. */
+
+/* Particles [begin, end), as seen from x + shift; m. */
+typedef struct CellRow {
+    uint32_t begin, end;
+    float shift[3]; /* 0 except across a periodic side */
+} CellRow;
+
+enum { CELL_ROWS = 18 };
+
+/* Fills rows with all particles in `cell` and the cells around, for particles sorted by cell. `start`:
+   first particle of each place of `fold`, plus an extra entry. Particles of distant cells that share a
+   place are included. Returns the number of rows. */
+int cell_rows(const Constants *constants, const CellFold *fold, const uint32_t *start, uint32_t cell,
+              CellRow rows[CELL_ROWS]);
+
+/* The cell at x (m) or next to x with the given place: for particles that have moved since the grid was
+   made. */
+uint32_t cell_near(const Constants *constants, const CellFold *fold, size_t place, const float x[3]);
+
+/* True if a further row has the same particles: along a periodic axis of two cells, both neighbours of a
+   cell are the same cell. For callers that take the nearest image of a pair and ignore the row's shift. */
+bool cell_row_repeats(const Constants *constants, const CellRow *row);
+
+/* Contribution of a particle to a world's sums, for the backends. */
+
+/* Adds a particle of mass m (kg) at x (m) with velocity v (m/s). `centre` is not yet divided by the mass. */
+static inline void sums_add(WorldSums *sums, double m, const double x[3], const double v[3])
+{
+    double speed2 = 0, l2 = 0;
+    sums->mass += m;
+    for (int k = 0; k < 3; k++) {
+        const int a = (k + 1) % 3, b = (k + 2) % 3;
+        const double l = m * (x[a] * v[b] - x[b] * v[a]);
+        sums->momentum[k] += m * v[k];
+        sums->angular_momentum[k] += l;
+        sums->centre[k] += m * x[k];
+        speed2 += v[k] * v[k];
+        l2 += l * l;
+    }
+    sums->momentum_scale += m * sqrt(speed2);
+    sums->angular_scale += sqrt(l2);
+    sums->kinetic_energy += 0.5 * m * speed2;
+    sums->max_speed = fmax(sums->max_speed, sqrt(speed2));
+}
+
+/* A particle's contribution to a world's gauge (include/slosh/world.h), for the backends. A gauge needs
+   nothing else of the state. */
+
+/* Adds a particle at x (m) with velocity v (m/s) and `compression` to the sums; the mean is not yet divided
+   by the count. `gravity` in the box's frame, m/s2. */
+static inline void gauge_add(WorldGauge *gauge, const Constants *constants, const double gravity[3],
+                             int fluid, double compression, const float x[3], const float v[3])
+{
+    const double m = constants_mass(constants, fluid), c = (double)constants->sound_speed;
+    const double pressed = compression > 0 ? compression : 0;
+    double speed2 = 0, height = 0;
+    for (int k = 0; k < 3; k++) {
+        speed2 += (double)v[k] * (double)v[k];
+        height -= gravity[k] * (double)x[k];
+    }
+    gauge->density_error_mean += pressed;
+    gauge->density_error_max = fmax(gauge->density_error_max, pressed);
+    gauge->kinetic_energy += 0.5 * m * speed2;
+    gauge->potential_energy += m * height;
+    if (constants->method->energy)
+        gauge->compression_energy +=
+            m * c * c * constants->method->energy(constants->negative_pressure ? compression : pressed);
+}
+
+/* The same for EnergySums; `turning`: with the sums for a turning box. */
+static inline void energy_add(EnergySums *sums, const Constants *constants, int fluid, double compression,
+                              const float at[3], const float velocity[3], bool turning)
+{
+    const double m = constants_mass(constants, fluid), c = (double)constants->sound_speed;
+    double x[3], v[3];
+    for (int k = 0; k < 3; k++) {
+        x[k] = (double)at[k];
+        v[k] = (double)velocity[k];
+    }
+    energy_sums_add(sums, m, x, v);
+    if (turning)
+        energy_sums_add_turning(sums, m, x, v);
+    if (constants->method->energy && (compression > 0 || constants->negative_pressure))
+        sums->own += m * c * c * constants->method->energy(compression);
+}
+
+/* Host-side column functions shared by all backends: initial state and reading. */
+
+/* Writes an initial state to zeroed columns; ids count from 0. */
+void particles_set(const ParticleColumns *to, const Constants *constants, const InitialState *initial);
+
+/* rho / rho0 - 1: carried, or calibrated to p = c^2 (rho - rho0). */
+static inline float particle_compression(const ParticleColumns *p, const Constants *constants, size_t i)
+{
+    if (p->compression)
+        return p->compression[i];
+    return constants->stiffness_scale * (1 / (p->volume[i] * constants->rest_number_density) - 1);
+}
+
+/* Fills entries [begin, end) of `out` with particles at[k], or particles k if `at` is NULL. */
+void particles_read(const ParticleColumns *p, const Constants *constants, const uint32_t *at, size_t begin,
+                    size_t end, const ParticleArrays *out);
+
+/* Sums over particles 0 to count - 1, in sequence; without `neighbours_mean`. */
+void particles_sums(const ParticleColumns *p, const Constants *constants, size_t count, WorldSums *sums);
+
+/* A backend: holds the particles and computes. A backend is a const table of coarse operations; no
+   operation is called per particle. */
+
 struct BackendMicro;    /* sim/step/method.h */
-struct Iteration;       /* sim/step/iterate.h */
+struct Iteration;       /* sim/step/substep.h */
 struct Forces;          /* include/slosh/world.h */
 struct ParticleBuffers; /* sim/gpu/particle_buffers.h */
 
@@ -80,22 +225,23 @@ typedef struct Backend {
     bool (*read)(void *state, const ParticleArrays *out); /* false if memory is short */
     size_t (*held)(const void *state); /* number of particles given by `read`; NULL: all particles of the
                                           world */
-    /* `gauge` starts to gather sim/step/backend_sums.h, with gravity in the box's frame, m/s2; false if
+    /* `gauge` starts to gather, with gravity in the box's frame, m/s2; false if
        impossible. `gauged` is true once the gauge is ready, and with `waits` waits for the gauge: sums,
        with the mean divided. */
     bool (*gauge)(void *state, const double gravity[3]);
     bool (*gauged)(void *state, WorldGauge *gauge, bool waits);
-    /* Sums for sim/step/sentinel.h, at once; `second` and `turn` only for turning boxes. NULL: the
+    /* Sums for sim/step/world.h, at once; `second` and `turn` only for turning boxes. NULL: the
        backend has the gauge instead. */
     void (*energy)(void *state, bool turning, EnergySums *sums);
     /* From now on, steps add forces on box and solids to `to`; `to` NULL: stop. Returns false if memory is
        short. NULL: the backend sums no forces. */
-    bool (*feel)(void *state, struct Forces *to, Error *error);
-    /* Brings sums of `feel` from the device; waits. Returns false if memory is short. NULL: the sums are
-       always up to date. `mark` and `back` include these sums. */
-    bool (*felt)(void *state);
-    /* Between steps. `emit` adds at most `most` particles of a layer: particles in the box and not next to
-       present particles. `drain` removes particles in a region. Both return the number of particles. */
+    bool (*enable_forces)(void *state, struct Forces *to, Error *error);
+    /* Brings sums of `enable_forces` from the device; waits. Returns false if memory is short. NULL: the sums
+       are always up to date. `mark` and `back` include these sums. */
+    bool (*forces_ready)(void *state);
+    /* Called between steps. `emit` adds at most `most` particles of a layer: particles in the box and not
+       next to present particles. `drain` removes particles in a region. Both return the number of
+       particles. */
     size_t (*emit)(void *state, const EmitLayer *layer, size_t most);
     size_t (*drain)(void *state, const Fill *regions, int count);
     /* `save` copies the particles into columns of the same count. `load` takes `count` particles, at most

@@ -1,4 +1,4 @@
-#include "sim/step/cells.h"
+#include "sim/step/backend.h"
 
 #include <math.h>
 
@@ -79,7 +79,8 @@ enum {
     DIFFERENCES = 9 /* per axis */
 };
 
-CellFold cell_fold_plain(const CellGrid *cells)
+/* A place per cell, no sharing. */
+static CellFold cell_fold_plain(const CellGrid *cells)
 {
     const uint32_t width = (uint32_t)cells->size[0];
     return (CellFold){

@@ -1,4 +1,4 @@
-#include "sim/step/backend_sums.h"
+#include "sim/step/backend.h"
 #include "sim/step/constants.h"
 #include "sim/step/method.h"
 #include "slosh/state.h"
@@ -104,7 +104,11 @@ bool columns_save_own(const ColumnDef *own)
     return own && own->name;
 }
 
-void column_scalar_name(const ColumnDef *column, int component, char name[COLUMN_NAME_SIZE])
+enum { COLUMN_NAME_SIZE = 32 };
+
+/* Name of the scalar for a component of a method's column: NAME, or NAME_x, NAME_y, NAME_z for three
+   components. */
+static void column_scalar_name(const ColumnDef *column, int component, char name[COLUMN_NAME_SIZE])
 {
     snprintf(name, COLUMN_NAME_SIZE, column->components > 1 ? "%s_%c" : "%s", column->name, 'x' + component);
 }

@@ -16,6 +16,24 @@ static double length2(const double v[3])
     return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
 }
 
+/* False with the reason for a count without a list. */
+static bool list_check(const void *list, int count, const char *what, Error *error)
+{
+    return list || count <= 0 || error_set(error, "%d %s, but no list of them", count, what);
+}
+
+static bool lists_check(const WorldDef *def, Error *error)
+{
+    bool all = list_check(def->motions, def->motion_count, "motions", error) &&
+               list_check(def->drains, def->drain_count, "drains", error);
+    for (int f = 0; all && f < def->fluid_count && f < FLUIDS_MAX; f++)
+        all = list_check(def->fluids[f].fills, def->fluids[f].fill_count, "fills", error) &&
+              list_check(def->fluids[f].emits, def->fluids[f].emit_count, "emitters", error);
+    for (int k = 0; all && k < def->solid_count && k < SOLIDS_MAX; k++)
+        all = list_check(def->solids[k].motions, def->solids[k].motion_count, "motions of a solid", error);
+    return all;
+}
+
 static bool motions_check(const Motion *motions, int count, int dimensions, Error *error)
 {
     if (count < 0 || count > MOTIONS_MAX)
@@ -123,6 +141,8 @@ static bool fluids_check(const WorldDef *def, Error *error)
                 error,
                 "fluid %d: a table of viscosity has up to %d rows, whose times must ascend and whose values must not be negative",
                 f, TIME_TABLE_ROWS);
+        if (fluid->fill_count > FILLS_MAX)
+            return error_set(error, "a fluid has up to %d fills, not %d", FILLS_MAX, fluid->fill_count);
         if (!fills_check(fluid, def->dimensions))
             return error_set(error, "fluid %d: the axis of a cylinder must not be zero; no cylinder in 2D",
                              f);
@@ -205,7 +225,7 @@ static bool def_check(const WorldDef *def, Error *error)
                          "a lid moves in its plane, the top of a box whose walls hold fluid: slip none");
     if (!isfinite(def->gravity[0] + def->gravity[1] + def->gravity[2]))
         return error_set(error, "gravity must be finite");
-    return fluids_check(def, error) && tension_check(def, error) &&
+    return lists_check(def, error) && fluids_check(def, error) && tension_check(def, error) &&
            motions_check(def->motions, def->motion_count, def->dimensions, error) &&
            solids_check(def, error) && flow_check(def, error) && periodic_check(def, error);
 }
@@ -375,14 +395,13 @@ bool constants_create(Constants *constants, const WorldDef *def, Error *error)
     constants->rest_number_density = (float)(constants->lattice.number_density * constants->unit_volume);
     constants->kernel_scale =
         (float)(kernel->value(0, h) * constants->lattice.density_scale * constants->unit_volume);
-    constants->pressure_scale =
-        (float)(-kernel_spiky_derivative(0, h) * constants->lattice.gradient_scale * constants->unit_volume);
     constants->viscosity_scale = (float)(kernel_viscosity_laplacian(0, h) *
                                          constants->lattice.laplacian_scale * constants->unit_volume);
     tension_set(constants, def);
     fluids_set(constants, def);
     own_set(constants, def);
     walls_place(&constants->walls, def->dimensions, def->box_size, def->periodic, def->spacing);
+    constants->lift = wall_lift_of(&constants->lattice, def->spacing, h);
     constants->dimensions = def->dimensions;
     constants->wide = columns_wide(def);
     constants->emits = flow_emits(def);

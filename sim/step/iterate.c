@@ -1,4 +1,4 @@
-#include "sim/step/iterate.h"
+#include "sim/step/substep.h"
 
 #include <math.h>
 

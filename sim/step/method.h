@@ -10,7 +10,7 @@
 #include "slosh/state.h"
 #include "slosh/world.h"
 
-struct ApparentGravity; /* sim/box/box_step.h */
+struct ApparentGravity; /* sim/box/box.h */
 struct Constants;       /* sim/step/constants.h */
 struct CpuPass;         /* sim/cpu/cpu.h */
 struct Substep;         /* sim/step/substep.h */
@@ -22,8 +22,9 @@ typedef struct Pass {
     const struct CpuPass *cpu;
     const char *shader;         /* shaders/sim/SHADER.comp; NULL: shader backends lack the method */
     const char *reads, *writes; /* names of columns, separated by blanks */
-    bool felt;    /* the pass exerts forces on solids: CpuPass.solid, and the shader with FELT_SOLIDS */
-    bool mirrors; /* during the pass, boundary particles stand for fluid */
+    bool acts_on_solids;        /* the pass exerts forces on solids: CpuPass.solid, and the shader with
+                                   FORCES_ON_SOLIDS */
+    bool mirrors;               /* during the pass, boundary particles stand for fluid */
     bool (*needed)(const struct Constants *constants); /* true if the pass runs; NULL: always */
 } Pass;
 
@@ -87,7 +88,7 @@ typedef struct Method {
     MethodKernels (*kernels)(const WorldDef *def);                         /* NULL: spiky for both */
     StepFriction (*friction)(const WorldDef *def, const Lattice *lattice); /* NULL: no friction */
     /* For x = rho / rho0 - 1: pressure, Pa; energy of compression over m c^2, the integral of p / rho^2.
-       Both NULL: none. */
+       Both are NULL if the method has none. */
     float (*pressure)(const struct Constants *constants, int fluid, float x);
     double (*energy)(double x);
     const char *energy_shader; /* shaders/sim/ENERGY_SHADER.glsl: the same for GPUs; NULL: none */

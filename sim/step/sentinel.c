@@ -1,9 +1,7 @@
-#include "sim/step/sentinel.h"
+#include "sim/solids/solid.h"
+#include "sim/step/substep.h"
+#include "sim/step/world.h"
 
-#include "sim/solids/bodies.h"
-#include "sim/step/iterate.h"
-
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -14,63 +12,12 @@ bool sentinel_mark(World *world, Error *error)
     const Backend *backend = world->backend;
     if (world->def.retries == 0)
         return true;
-    world->felt_before = world->felt;
+    world->forces_before = world->forces;
     if (!backend->mark)
         return world_save(world, &world->good, error);
     world_save_numbers(world, &world->good.numbers);
     world->good.count = world->count;
     return backend->mark(world->state, error);
-}
-
-/* Finds the first solver in trouble. */
-static void look_at_solves(World *world)
-{
-    for (int k = 0; k < SOLVES_MAX && !world->seen && world->def.retries > 0; k++)
-        if (world->solves[k].failed) {
-            world->seen = STEP_TROUBLE_SOLVE;
-            world->trouble.solver = solver_of(world->method, k);
-            world->trouble.left = world->solves[k];
-        }
-}
-
-void sentinel_note_solves(World *world)
-{
-    bool numbers = true;
-    for (int k = 0; k < SOLVES_MAX; k++)
-        numbers &= isfinite(world->solves[k].mean);
-    if (numbers)
-        look_at_solves(world);
-}
-
-/* Floating bodies bound the next step like particles. */
-static void look_at_bodies(World *world)
-{
-    StepState *s = &world->stepping;
-    const double speed = world->bodies ? bodies_speed(world->bodies) : 0;
-    if (!world->seen && !(speed * s->dt <= (double)world->constants.support_radius))
-        world->seen = STEP_TROUBLE_SOLID;
-    else
-        s->max_speed = fmax(s->max_speed, speed);
-}
-
-bool world_is_valid(World *world)
-{
-    StepState *s = &world->stepping;
-    if (world->kicked) {
-        const StepWatch watch = world->backend->watch(world->state);
-        const StepTrouble trouble = step_trouble_of(&watch, world->def.retries > 0);
-        s->max_speed = watch.max_speed;
-        s->max_acceleration = watch.max_acceleration;
-        world->seen = world->seen ? world->seen : trouble;
-        look_at_bodies(world);
-        look_at_solves(world);
-        world->kicked = false;
-        if (world->backend->gpu && !world->seen)
-            energy_is_valid(world);
-        if (!world->seen)
-            world->fastest = fmax(world->fastest, (double)watch.max_speed);
-    }
-    return world->seen == STEP_TROUBLE_NONE;
 }
 
 /* True if steps of twice the length would boil by friction, with the same trouble again. */
@@ -81,21 +28,21 @@ static bool friction_forbids(const World *world)
            STEP_VISCOUS_STANDS * step_viscous(&world->def, &world->constants.friction);
 }
 
-void sentinel_relieve(World *world)
+void sentinel_lengthen_step(World *world)
 {
     StepState *s = &world->stepping;
-    if (s->refine <= 1 || s->calm < CALM_STEPS * s->refine || friction_forbids(world))
+    if (s->refine <= 1 || s->steps_since_trouble < CALM_STEPS * s->refine || friction_forbids(world))
         return;
     s->refine /= 2;
     s->tries--;
-    s->calm = 0;
+    s->steps_since_trouble = 0;
 }
 
 static void restore(World *world)
 {
     const WorldNumbers *numbers = &world->good.numbers;
-    world->felt = world->felt_before;
-    world->pushed = (Forces){0};
+    world->forces = world->forces_before;
+    world->step_forces = (Forces){0};
     world->since_step = world->step;
     world->since_time = numbers->since_time + (numbers->step - numbers->since_step) * numbers->stepping.dt;
     world->filter = numbers->filter;
@@ -109,25 +56,13 @@ static void restore(World *world)
     world->stepping.max_speed = numbers->stepping.max_speed;
     world->stepping.max_acceleration = numbers->stepping.max_acceleration;
     world->stepping.frame_left = -1;
-    world->stepping.calm = 0;
+    world->stepping.steps_since_trouble = 0;
     if (world->backend->back)
         world->backend->back(world->state, world->good.count, (size_t)numbers->guarded);
     else
         world->backend->load(world->state, &world->good.particles, world->good.count,
                              (size_t)numbers->guarded);
     world_put_back(world, numbers, world->good.count);
-}
-
-void world_trouble_words(const WorldTrouble *trouble, char words[160])
-{
-    const StepSolve *left = &trouble->left;
-    if (trouble->what == STEP_TROUBLE_SOLVE)
-        snprintf(words, 160,
-                 "the solver of %s does not converge: %s %g leaves %.3g %% in the mean, %s is %.3g %%",
-                 trouble->solver->name, trouble->solver->iterations, left->iterations, 100 * left->mean,
-                 trouble->solver->tolerance, 100 * left->tolerance);
-    else
-        snprintf(words, 160, "%s", step_trouble_words(trouble->what));
 }
 
 /* Advice on the solver in trouble or on the step. */
@@ -185,11 +120,11 @@ bool sentinel_back(World *world, double time, Error *error)
 {
     const StepTrouble trouble = world->seen;
     StepState *s = &world->stepping;
-    WorldTrouble *told = &world->trouble;
+    WorldTrouble *trouble_out = &world->trouble;
     const bool helps = trouble != STEP_TROUBLE_LOST && trouble != STEP_TROUBLE_MEMORY;
-    told->what = trouble;
-    told->time = time;
-    told->ended = !helps || s->tries >= world->def.retries;
+    trouble_out->what = trouble;
+    trouble_out->time = time;
+    trouble_out->ended = !helps || s->tries >= world->def.retries;
     if (trouble == STEP_TROUBLE_LOST)
         return give_up_lost(world, error);
     if (trouble == STEP_TROUBLE_MEMORY)
@@ -197,12 +132,12 @@ bool sentinel_back(World *world, double time, Error *error)
     if (world->def.retries == 0)
         return give_up(world, trouble, time, error);
     restore(world);
-    if (told->ended)
+    if (trouble_out->ended)
         return give_up(world, trouble, time, error);
     s->refine *= 2;
     s->tries++;
-    told->count++;
-    told->back_to = world->since_time;
-    told->tries = (int)s->tries;
+    trouble_out->count++;
+    trouble_out->back_to = world->since_time;
+    trouble_out->tries = (int)s->tries;
     return true;
 }

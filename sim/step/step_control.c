@@ -1,7 +1,6 @@
-#include "sim/step/step_control.h"
-
 #include "sim/def/fluids.h"
-#include "sim/start/seed.h"
+#include "sim/start/start.h"
+#include "sim/step/constants.h"
 #include "sim/step/method.h"
 
 #include <math.h>
@@ -84,6 +83,12 @@ double step_sound(const WorldDef *def)
     return method_find(def->method)->incompressible ? 0 : def->sound_speed;
 }
 
+double step_sound_calm(const WorldDef *def)
+{
+    const bool stiff = method_kernels(def).density == density_kernel_find("quintic"); /* a summed density */
+    return stiff ? 0.8 * STEP_SOUND_CALM : STEP_SOUND_CALM;
+}
+
 double artificial_kinematic(const WorldDef *def, double alpha)
 {
     return 0.25 * alpha * def->sound_speed * def->support * def->spacing;
@@ -97,7 +102,7 @@ double numerical_kinematic(const WorldDef *def, double alpha)
 double step_viscosity(const WorldDef *def, const StepFriction *friction, int f)
 {
     const FluidDef *fluid = &def->fluids[f];
-    return fmax(fluid->viscosity, numerical_kinematic(def, friction->numerical) * fluid->density);
+    return fmax(fluid->viscosity, friction->numerical * fluid->density);
 }
 
 double step_alpha(const WorldDef *def, double alpha, int f)
@@ -149,7 +154,7 @@ void step_advice(const WorldDef *def, const StepFriction *friction, StepTrouble 
 }
 
 /* Damping rate of boiling by implicit friction, 1/s: of the least viscous fluid, over the heaviest fluid's
-   density. Measured in a boiling column: 62 to 83 nu / h^2 (docs/failures.md). */
+   density. Measured in a boiling column: 62 to 83 nu / h^2 (docs/labbook/failures.md). */
 static double boiling_damped(const WorldDef *def)
 {
     static const double DAMPED = 40;

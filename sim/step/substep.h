@@ -1,11 +1,12 @@
-/* Data of a method's substep. */
+/* A method's substep: its data, and the loop of an iterating solver. */
 #ifndef SIM_STEP_SUBSTEP_H
 #define SIM_STEP_SUBSTEP_H
 
-#include "sim/solids/bodies.h"
 #include "sim/solids/solid.h"
 #include "sim/step/backend.h"
 #include "slosh/world.h"
+
+/* Data of a method's substep. */
 
 /* Data of a substep, with the poses of the box at begin, middle and end. */
 typedef struct Substep {
@@ -72,10 +73,57 @@ static inline void substep_kick(const Substep *step)
         step->backend->touch(step->state, &step->finger);
     if (step->guide_count > 0)
         *step->driven += step->backend->guide(step->state, step->guides, step->guide_count);
-    if (step->bodies && step->backend->felt)
-        step->backend->felt(step->state);
+    if (step->bodies && step->backend->forces_ready)
+        step->backend->forces_ready(step->state);
     if (step->bodies)
         bodies_kick(step->bodies);
 }
+
+/* The loop of an iterating solver: passes until the residual is small enough. */
+
+/* Plain data, without calls of the method between passes: a backend with costly read-backs takes the same
+   decisions on the device (Backend.iterate). */
+enum { ITERATION_ASKED = 2 };
+typedef struct Iteration {
+    const Pass *passes[4];     /* of an iteration, ended by NULL; the last pass measures */
+    const ColumnDef *residual; /* only positive values count */
+    double tolerance;          /* for the mean residual */
+    double worst;              /* if a particle exceeds `worst`, */
+    int few;                   /* at least `few` iterations run */
+    int most;                  /* iterations */
+    bool begun;                /* the residual is known before the first iteration: possibly no iteration
+                                  runs */
+    /* Further columns for the caller, ended by NULL: their excess after the last iteration goes to `to`. A
+       separate query would make a GPU's step wait again. */
+    struct {
+        const ColumnDef *column;
+        Excess *to;
+    } asked[ITERATION_ASKED];
+    const ColumnDef *scale; /* the residual is measured in units of this column's mean before the first
+                               iteration; NULL: 1 */
+    /* For conjugate gradients, whose passes read PassInput.go and .turn: each particle's part of (residual
+       . direction), and of (direction . matrix times direction). NULL: none. */
+    const ColumnDef *power, *curvature;
+} Iteration;
+
+/* Runs the passes over `dt` (s), at least once unless `begun`, and writes the result to
+   step->solves[which]. */
+void substep_iterate(const Substep *step, const Iteration *iteration, int which, double dt);
+
+/* Statistics of solvers over many steps, in bounded memory. Zero-initialise. */
+enum { SOLVE_EXACT = 64, SOLVE_OCTAVE = 8, SOLVE_CLASSES = SOLVE_EXACT + 9 * SOLVE_OCTAVE };
+typedef struct SolveTally {
+    uint64_t steps, iterations;      /* iterations: all solvers of the method together */
+    uint64_t most_iterations;        /* in a step */
+    double mean, most;               /* residual of density: sum of means; maximum */
+    double rubbed, left;             /* viscosity solver: iterations; sum of residuals */
+    uint64_t classes[SOLVE_CLASSES]; /* steps by number of iterations: a class per number, then eight per
+                                        octave */
+} SolveTally;
+
+/* Adds a step of a method with solvers. */
+void solve_tally_add(SolveTally *tally, const StepSolve solves[SOLVES_MAX]);
+
+SolveFigures solve_tally_figures(const SolveTally *tally);
 
 #endif

@@ -1,6 +1,5 @@
-#include "sim/base/sums.h"
-#include "sim/solids/bodies.h"
-#include "sim/step/sentinel.h"
+#include "sim/base/base.h"
+#include "sim/solids/solid.h"
 #include "sim/step/world.h"
 
 #include <stdlib.h>
@@ -34,34 +33,26 @@ bool world_pours(const World *world, Emit *emit, int *fluid)
 static bool layer_reserve(World *world, const Emit *emit)
 {
     const size_t most = emit_most(emit, world->def.dimensions, world->def.spacing);
-    if (most <= world->layer_room)
+    if (most <= world->layer_capacity)
         return true;
     float *more = realloc(world->layer, 3 * most * sizeof *more);
     world->layer = more ? more : world->layer;
-    world->layer_room = more ? most : world->layer_room;
+    world->layer_capacity = more ? most : world->layer_capacity;
     return more;
 }
 
 /* Counts consecutive layers without room for any particle. An emitter that waits for the world's particle
    limit does not count. */
-static void look_for_room(unsigned short *barred, size_t came, bool full)
+static void look_for_room(unsigned short *blocked, size_t came, bool full)
 {
     if (came > 0 || full)
-        *barred = 0;
-    else if (*barred < BLOCKED_LAYERS)
-        ++*barred;
-}
-
-uint64_t world_barred(const World *world)
-{
-    uint64_t gates = 0;
-    for (int k = 0; k < EMITTERS_MAX; k++)
-        gates |= (uint64_t)(world->barred[k] == BLOCKED_LAYERS) << k;
-    return gates;
+        *blocked = 0;
+    else if (*blocked < BLOCKED_LAYERS)
+        ++*blocked;
 }
 
 /* `barred`: the emitter's counter; NULL for poured fluid. */
-static void let_in(World *world, int fluid, const Emit *emit, unsigned short *barred, double begin,
+static void let_in(World *world, int fluid, const Emit *emit, unsigned short *blocked, double begin,
                    double end)
 {
     const WorldDef *def = &world->def;
@@ -76,9 +67,9 @@ static void let_in(World *world, int fluid, const Emit *emit, unsigned short *ba
         for (size_t i = 0; i < layer.count; i++)
             periodic_wrap(&world->constants.periodic, layer.position + 3 * i, NULL);
         const size_t more = world->backend->emit(world->state, &layer, world->capacity - world->count);
-        if (barred && layer.count > 0)
-            look_for_room(barred, more, world->count == world->capacity);
-        energy_comes(world, &layer, more);
+        if (blocked && layer.count > 0)
+            look_for_room(blocked, more, world->count == world->capacity);
+        energy_add_emitted(world, &layer, more);
         if (more > 0)
             births_add(&world->births, layer.first_id, (float)emit_time(emit, def->spacing, k));
         world->emitted += more;
@@ -91,27 +82,27 @@ static bool reserve(World *world, double begin, double end)
 {
     const WorldDef *def = &world->def;
     size_t layers = 0;
-    bool room = true;
+    bool capacity = true;
     long first;
     Emit poured;
     int fluid;
     for (int f = 0; f < def->fluid_count; f++)
         for (int i = 0; i < def->fluids[f].emit_count; i++) {
             layers += (size_t)emit_layers(&def->fluids[f].emits[i], def->spacing, begin, end, &first);
-            room &= layer_reserve(world, &def->fluids[f].emits[i]);
+            capacity &= layer_reserve(world, &def->fluids[f].emits[i]);
         }
     if (world_pours(world, &poured, &fluid)) {
         layers += (size_t)emit_layers(&poured, def->spacing, begin, end, &first);
-        room &= layer_reserve(world, &poured);
+        capacity &= layer_reserve(world, &poured);
     }
-    return room && births_reserve(&world->births, layers);
+    return capacity && births_reserve(&world->births, layers);
 }
 
 static int open_drains(const World *world, Fill open[DRAINS_MAX])
 {
     int count = 0;
     for (int k = 0; k < world->def.drain_count; k++)
-        if (!gate_shut(world->shut, gate_of_drain(k)))
+        if (!gate_is_closed(world->closed, gate_of_drain(k)))
             open[count++] = world->def.drains[k];
     return count;
 }
@@ -127,14 +118,14 @@ static uint64_t gates_of(const WorldDef *def)
     return gates;
 }
 
-void world_shut_gates(World *world, uint64_t gates)
+void world_close_gates(World *world, uint64_t gates)
 {
-    world->shut = gates & gates_of(&world->def);
+    world->closed = gates & gates_of(&world->def);
 }
 
-uint64_t world_gates_shut(const World *world)
+uint64_t world_closed_gates(const World *world)
 {
-    return world->shut;
+    return world->closed;
 }
 
 bool world_names(const World *world, uint64_t born, Error *error)
@@ -159,8 +150,9 @@ bool world_flow(World *world, Error *error)
         return error_set(error, "no memory for the particles that come");
     for (int f = 0; f < def->fluid_count; f++)
         for (int i = 0; i < def->fluids[f].emit_count; i++)
-            if (!gate_shut(world->shut, gate_of_emitter(f, i)))
-                let_in(world, f, &def->fluids[f].emits[i], &world->barred[gate_of_emitter(f, i)], begin, end);
+            if (!gate_is_closed(world->closed, gate_of_emitter(f, i)))
+                let_in(world, f, &def->fluids[f].emits[i], &world->blocked[gate_of_emitter(f, i)], begin,
+                       end);
     Emit poured;
     int fluid;
     if (world_pours(world, &poured, &fluid))
@@ -219,21 +211,21 @@ bool world_gauge(World *world, WorldGauge *gauge)
 
 bool world_sum_forces(World *world, Error *error)
 {
-    Forces *to = world->backend->felt ? &world->felt : &world->pushed;
-    if (!world->backend->feel)
+    Forces *to = world->backend->forces_ready ? &world->forces : &world->step_forces;
+    if (!world->backend->enable_forces)
         return error_set(error, "backend %s sums no forces; use backend cpu or compute",
                          world->backend->name);
     if (world->bodies) /* floating bodies have summed forces since the start */
-        bodies_tell(world->bodies, to);
-    world->sums_forces = world->bodies || world->backend->feel(world->state, to, error);
+        bodies_copy_forces(world->bodies, to);
+    world->sums_forces = world->bodies || world->backend->enable_forces(world->state, to, error);
     return world->sums_forces;
 }
 
 bool world_enable_forces(World *world, Error *error)
 {
-    world->felt = world->felt_before = (Forces){0};
-    world->feels = world_sum_forces(world, error);
-    return world->feels;
+    world->forces = world->forces_before = (Forces){0};
+    world->forces_wanted = world_sum_forces(world, error);
+    return world->forces_wanted;
 }
 
 void world_forces(World *world, Forces *forces)
@@ -241,53 +233,9 @@ void world_forces(World *world, Forces *forces)
     const Backend *backend = world->backend;
     *forces = (Forces){0};
     /* For asynchronous steps: the next step takes these forces back. */
-    if (backend->felt && (!world_is_valid(world) || !backend->felt(world->state)))
+    if (backend->forces_ready && (!world_is_valid(world) || !backend->forces_ready(world->state)))
         return;
-    *forces = world->felt;
+    *forces = world->forces;
     forces_mean(forces);
-    world->felt = world->felt_before = (Forces){0};
-}
-
-typedef struct Who {
-    ParticleId id;
-    size_t place;
-} Who;
-
-static int ascending(const void *a, const void *b)
-{
-    const ParticleId x = ((const Who *)a)->id, y = ((const Who *)b)->id;
-    return (x > y) - (x < y);
-}
-
-uint64_t world_hash(World *world)
-{
-    WorldInfo info;
-    world_info(world, &info);
-    const size_t n = info.count;
-    ParticleArrays out = {
-        .position = malloc((n + 1) * 4 * sizeof(float)),
-        .velocity = malloc((n + 1) * 4 * sizeof(float)),
-        .whole_id = malloc((n + 1) * sizeof(ParticleId)),
-    };
-    Who *order = malloc((n + 1) * sizeof *order);
-    uint64_t hash = 0;
-    if (out.position && out.velocity && out.whole_id && order && world_read(world, &out)) {
-        for (size_t i = 0; i < n; i++)
-            order[i] = (Who){out.whole_id[i], i};
-        qsort(order, n, sizeof *order, ascending);
-        hash = HASH_NONE;
-        for (size_t k = 0; k < n; k++) {
-            const size_t i = order[k].place;
-            hash = hash_add(hash, &out.position[4 * i], 3 * sizeof(float));
-            hash = hash_add(hash, &out.velocity[4 * i], 3 * sizeof(float));
-        }
-        for (int k = 0; k < world->def.solid_count; k++)
-            if (solid_floats(&world->def.solids[k]))
-                hash = hash_add(hash, &info.floating[k], sizeof info.floating[k]);
-    }
-    free(out.position);
-    free(out.velocity);
-    free(out.whole_id);
-    free(order);
-    return hash;
+    world->forces = world->forces_before = (Forces){0};
 }

@@ -1,9 +1,7 @@
 /* Start of a world: particles from fills or from a given initial state. */
 #include "sim/base/key_rows.h"
-#include "sim/solids/bodies.h"
-#include "sim/start/fill.h"
-#include "sim/start/rest.h"
-#include "sim/start/seed.h"
+#include "sim/solids/solid.h"
+#include "sim/start/start.h"
 #include "sim/step/backend.h"
 #include "sim/step/method.h"
 #include "sim/step/world.h"
@@ -294,7 +292,7 @@ static bool seeds_make(const Constants *constants, const WorldDef *def, Seeds *s
 
 static bool initial_check(const WorldDef *def, const InitialState *initial, Error *error)
 {
-    if ((initial->count == 0 && initial->room == 0 && !flow_emits(def)) || initial->count > INT32_MAX)
+    if ((initial->count == 0 && initial->capacity == 0 && !flow_emits(def)) || initial->count > INT32_MAX)
         return error_set(error, "an initial state needs 1 to 2^31 - 1 particles");
     for (size_t i = 0; i < initial->count; i++) {
         const float *x = initial->position + 3 * i;
@@ -320,7 +318,8 @@ static bool start_bodies(World *world, Error *error)
                          .sounds = !world->method->incompressible,
                          .leaps = world->method->leaps};
     return bodies_create(&world->bodies, &in, error) &&
-           (!world->bodies || world->backend->feel(world->state, bodies_felt(world->bodies), error));
+           (!world->bodies ||
+            world->backend->enable_forces(world->state, bodies_forces(world->bodies), error));
 }
 
 bool world_start(World *world, Error *error)
@@ -335,7 +334,7 @@ bool world_start(World *world, Error *error)
     if (ok) {
         world->count = world->initial = initial.count;
         world->capacity = flow_capacity(&world->def, initial.count);
-        world->capacity = world->capacity > initial.room ? world->capacity : initial.room;
+        world->capacity = world->capacity > initial.capacity ? world->capacity : initial.capacity;
         world->state =
             world->backend->create(&world->constants, &world->def, &initial, world->capacity, error);
         ok = world->state && start_bodies(world, error);

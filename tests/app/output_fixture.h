@@ -1,4 +1,4 @@
-/* A folder of its own for each test that writes files. */
+/* A separate folder for each test with output files. */
 #ifndef SLOSH_TEST_OUTPUT_FIXTURE_H
 #define SLOSH_TEST_OUTPUT_FIXTURE_H
 

@@ -1,4 +1,4 @@
-/* slosh bench --ablate: which terms a scene has, and what is made of figures. */
+/* slosh bench --ablate: the terms of a scene, and the rows made of figures. */
 #include "app/lab/ablate.h"
 
 #include <math.h>
@@ -74,7 +74,7 @@ static void a_table_is_on(void **state)
     assert_true(found);
 }
 
-/* Each row's off value is one that the key takes, and then the term is none. */
+/* Each row's off value is valid for the key, and switches the term off. */
 static void off_is_off(void **state)
 {
     (void)state;
@@ -91,7 +91,7 @@ static void off_is_off(void **state)
     }
 }
 
-/* A term that takes a quarter of the time, with metrics that change by a tenth. */
+/* A term with a quarter of the time, and metrics that change by a tenth. */
 static Ablation made_up(void)
 {
     Ablation a = {.count = 2, .floor = 0.01};

@@ -1,10 +1,12 @@
-/* The command line: what it becomes, and the words for what it cannot be. */
+/* The command line: the parsed result, and the messages for errors. */
+#include "tests/app/toy_command.h"
 #include "tests/scene/scene_text.h"
 
-#include "app/bench/bench_table.h"
+#include "app/bench/bench.h"
 #include "app/cli/cli.h"
-#include "app/cli/sweep.h"
-#include "sim/gpu/gl_context.h"
+#include "app/cli/cli_private.h"
+#include "app/files/snapshot.h"
+#include "sim/gpu/gl.h"
 
 #include <stdlib.h>
 
@@ -23,7 +25,38 @@ static bool parse(const char *line)
     for (char *word = strtok(words, " "); word && argc < WORDS_MAX; word = strtok(NULL, " "))
         argv[argc++] = word;
     error.message[0] = 0;
-    return args_parse(&cli_table, argc, argv, &args, &error);
+    args_free(&args);
+    return args_parse(cli_commands, argc, argv, &args, &error);
+}
+
+/* Where the parsed command keeps the value of an option. */
+static const void *value_of(const char *option)
+{
+    for (const OptionRow *row = args.command->options; row->name; row++)
+        if (strcmp(row->name, option) == 0)
+            return (const char *)(row->flags & OPTION_OWN ? args.own : &args) + row->offset;
+    fail_msg("slosh %s has no %s", args.command->name, option);
+    return NULL;
+}
+
+static double number(const char *option)
+{
+    return *(const double *)value_of(option);
+}
+
+static int count(const char *option)
+{
+    return *(const int *)value_of(option);
+}
+
+static const char *text(const char *option)
+{
+    return *(const char *const *)value_of(option);
+}
+
+static bool is_command(const char *name)
+{
+    return args.command && strcmp(args.command->name, name) == 0;
 }
 
 static void accept(const char *line)
@@ -44,19 +77,18 @@ static void defaults(void **state)
 {
     (void)state;
     accept("render a.yaml -o a.png");
-    assert_int_equal(args.command, COMMAND_RENDER);
+    assert_true(is_command("render"));
     assert_true(args.scene_count == 1 && args.settings.count == 0 && args.settings.particles == 0);
     assert_string_equal(args.scenes[0], "a.yaml");
     assert_string_equal(args.output, "a.png");
-    assert_true(args.time == 5 && args.fps == 30 && args.every == 1.0 / 30 && !args.time_given &&
-                args.frames == 0);
+    assert_true(args.time == 5 && number("--fps") == 30 && !args_given(&args, "--time") &&
+                count("--frames") == 0);
     assert_true(args.width == 1280 && args.height == 720 && args.gpu == -1 && !args.quiet && !args.json);
     accept("bench");
-    assert_true(args.command == COMMAND_BENCH && args.scene_count == 0 && args.width == 512 &&
-                args.height == 512);
-    assert_true(args.clock == CLOCK_CHOICE_AUTO);
+    assert_true(is_command("bench") && args.scene_count == 0 && args.width == 512 && args.height == 512);
+    assert_true(options_of_bench(&args)->clock == CLOCK_CHOICE_AUTO);
     accept("info");
-    assert_int_equal(args.command, COMMAND_INFO);
+    assert_true(is_command("info"));
 }
 
 static void every_option_reaches_its_field(void **state)
@@ -66,26 +98,28 @@ static void every_option_reaches_its_field(void **state)
         "render -o out --time 2.5 --frames 7 --fps=24 --size 640x480 --gpu 1 --shaders sh --json j.json --quiet s");
     assert_string_equal(args.output, "out");
     assert_string_equal(args.scenes[0], "s");
-    assert_true(args.time == 2.5 && args.time_given && args.frames == 7 && args.fps == 24);
+    assert_true(args.time == 2.5 && args_given(&args, "--time") && count("--frames") == 7 &&
+                number("--fps") == 24);
     assert_true(args.width == 640 && args.height == 480 && args.gpu == 1 && args.quiet);
     assert_string_equal(args.shaders, "sh");
     assert_string_equal(args.json, "j.json");
     accept("run s -o o.h5part --every 0.1 --time 0");
-    assert_true(args.command == COMMAND_RUN && args.every == 0.1 && args.time == 0 && args.time_given);
+    assert_true(is_command("run") && number("--every") == 0.1 && args.time == 0 &&
+                args_given(&args, "--time"));
     accept("bench a b c --clock finish");
-    assert_true(args.scene_count == 3 && args.clock == CLOCK_CHOICE_FINISH);
+    assert_true(args.scene_count == 3 && options_of_bench(&args)->clock == CLOCK_CHOICE_FINISH);
     accept("bench --clock=gl");
-    assert_int_equal(args.clock, CLOCK_CHOICE_GL);
+    assert_int_equal(options_of_bench(&args)->clock, CLOCK_CHOICE_GL);
     accept("export a.h5part -o a.vtp --frame world --time 2");
-    assert_true(args.command == COMMAND_EXPORT && args.frame == FRAME_WORLD && args.time_given);
+    assert_true(is_command("export") && count("--frame") == (int)FRAME_WORLD && args_given(&args, "--time"));
     accept("export a.h5part -o a.ply --frame=box");
-    assert_true(args.frame == FRAME_BOX && !args.time_given);
+    assert_true(count("--frame") == (int)FRAME_BOX && !args_given(&args, "--time"));
     accept("devices --watch --record r --device file:a/b.rec");
-    assert_true(args.command == COMMAND_DEVICES && args.watch);
-    assert_string_equal(args.record, "r");
+    assert_true(is_command("devices") && *(const bool *)value_of("--watch"));
+    assert_string_equal(text("--record"), "r");
     assert_string_equal(args.device, "file:a/b.rec");
     accept("--device=file:a");
-    assert_true(args.command == COMMAND_PLAY);
+    assert_true(is_command("play"));
     assert_string_equal(args.device, "file:a");
     static const char *const moved[] = {"render s -o o", "run s -o o", "bench s"};
     for (size_t i = 0; i < sizeof moved / sizeof *moved; i++) {
@@ -112,7 +146,7 @@ static void settings_come_in_order(void **state)
     assert_int_equal(args.settings.particles, 5000);
 }
 
-/* As --particles has them. */
+/* As for --particles. */
 static void a_swept_number_of_particles(void **state)
 {
     (void)state;
@@ -213,7 +247,7 @@ static void numbers_have_ranges(void **state)
     refuse("info --particles 3e9", "slosh info: --particles must be 1 to 2147483647, not 3e9");
     refuse("render s -o o --gpu -1", "slosh render: --gpu must be 0 to 15, not -1");
     accept("render s -o o --frames 1e3 --size 16384x1");
-    assert_true(args.frames == 1000 && args.width == 16384 && args.height == 1);
+    assert_true(count("--frames") == 1000 && args.width == 16384 && args.height == 1);
 }
 
 static void sizes_have_two_sides(void **state)
@@ -240,15 +274,18 @@ static void too_many_are_refused(void **state)
         argv[argc++] = "--set";
         argv[argc++] = "a=1";
     }
-    assert_true(args_parse(&cli_table, argc - 2, argv, &args, &error));
-    assert_false(args_parse(&cli_table, argc, argv, &args, &error));
+    args_free(&args);
+    assert_true(args_parse(cli_commands, argc - 2, argv, &args, &error));
+    args_free(&args);
+    assert_false(args_parse(cli_commands, argc, argv, &args, &error));
     assert_non_null(strstr(error.message, "more than 64 settings"));
     char huge[4096];
     memset(huge, 'x', sizeof huge);
     memcpy(huge, "a=", 2);
     huge[sizeof huge - 1] = 0;
     argv[3] = huge;
-    assert_false(args_parse(&cli_table, 4, argv, &args, &error));
+    args_free(&args);
+    assert_false(args_parse(cli_commands, 4, argv, &args, &error));
     assert_non_null(strstr(error.message, "--set: too long"));
 }
 
@@ -260,50 +297,52 @@ static void play_is_what_is_meant_without_a_command(void **state)
                                         "folder/a", "--quiet", "--quiet -- a", "dam_break"};
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         accept(lines[i]);
-        assert_int_equal(args.command, COMMAND_PLAY);
+        assert_true(is_command("play"));
         assert_int_equal(args.width, 1280);
     }
     accept("x/y.yaml --set gravity=[0,0,0] --record r");
     assert_string_equal(args.scenes[0], "x/y.yaml");
-    assert_string_equal(args.record, "r");
+    assert_string_equal(text("--record"), "r");
     assert_int_equal(args.settings.count, 1);
-    accept("a.recording"); /* whose loader says which command takes it */
-    assert_int_equal(args.command, COMMAND_PLAY);
+    accept("a.recording"); /* the loader names the command */
+    assert_true(is_command("play"));
     accept("bench --play --seconds 3 a");
-    assert_true(args.play && args.seconds == 3);
+    assert_true(options_of_bench(&args)->play && number("--seconds") == 3);
     refuse("play a b", "slosh play: one argument too many");
     refuse("--fps 3", "slosh play: unknown option '--fps'");
     refuse("bench --seconds 0", "slosh bench:");
 }
 
-static char *help_of(Command command)
+static char *help_of(const char *command)
 {
-    char *text = NULL;
+    char *help = NULL;
     size_t size;
-    FILE *file = open_memstream(&text, &size);
-    cli_help(command, file);
+    FILE *file = open_memstream(&help, &size);
+    cli_help(command ? command_find(cli_commands, command) : NULL, file);
     fclose(file);
-    return text;
+    return help;
 }
 
 static void help_comes_from_the_table(void **state)
 {
     (void)state;
     accept("help");
-    assert_true(args.command == COMMAND_HELP && args.help_for == COMMAND_HELP);
+    assert_true(is_command("help") && args.scene_count == 0);
     accept("--help");
-    assert_int_equal(args.command, COMMAND_HELP);
+    assert_true(is_command("help") && args.scene_count == 0);
     accept("help bench");
-    assert_int_equal(args.help_for, COMMAND_BENCH);
+    assert_true(is_command("help") && args.scene_count == 1);
     accept("render --help");
-    assert_true(args.command == COMMAND_HELP && args.help_for == COMMAND_RENDER);
+    assert_true(args.help && is_command("render"));
     accept("run -h");
-    assert_int_equal(args.help_for, COMMAND_RUN);
+    assert_true(args.help && is_command("run"));
     accept("--version");
-    assert_int_equal(args.command, COMMAND_VERSION);
-    refuse("help dance", "slosh: unknown command 'dance'");
+    assert_null(args.command);
+    assert_false(command_unknown(cli_commands, "dance", &error));
+    assert_string_equal(error.message,
+                        "slosh: unknown command 'dance'; `slosh help` lists them, and the scenes");
 
-    char *program = help_of(COMMAND_HELP), *bench = help_of(COMMAND_BENCH), *run = help_of(COMMAND_RUN);
+    char *program = help_of(NULL), *bench = help_of("bench"), *run = help_of("run");
     assert_non_null(strstr(program, " SCENE|IN.h5part|SESSION -o OUT.png|OUT.mp4|OUT.gif|FOLDER"));
     assert_non_null(strstr(program, "slosh play"));
     assert_non_null(strstr(program, "dam_break, dam_break_2d, drop,"));
@@ -318,7 +357,7 @@ static void help_comes_from_the_table(void **state)
     free(run);
 }
 
-/* A value that each option takes by its kind, or by its name; NULL: none is needed. */
+/* A valid value for each option, by kind or name; NULL: no value needed. */
 static const char *value_for(const OptionRow *option)
 {
     static const char *const named[][2] = {{"--cell", "1"}, {"--level", "0.5"}, {"--device", "file:a"}};
@@ -341,51 +380,78 @@ static const char *value_for(const OptionRow *option)
     }
 }
 
-/* Whether the command takes the option, in a line that has all else that it needs. */
-static bool takes(const CommandRow *row, const OptionRow *option)
+/* True if the command takes the option, on a line with all other required arguments. */
+static bool takes(const Command *command, const OptionRow *option)
 {
     char line[256];
     const char *value = value_for(option);
-    const bool wants_output = row->output && strcmp(option->name, "-o") != 0;
-    const bool wants_device = strcmp(option->name, "--mapping") == 0 && row->command != COMMAND_DEVICES;
-    snprintf(line, sizeof line, "%s %s %s %s %s %s", row->name, row->scenes_min ? "s" : "",
-             wants_output ? "-o o" : "", wants_device ? "--device file:a" : "", option->name,
+    const bool wants_output = command->output && strcmp(option->name, "-o") != 0;
+    snprintf(line, sizeof line, "%s %s %s %s %s %s", command->name, command->takes_min ? "s" : "",
+             wants_output ? "-o o" : "", option->needs ? "--device file:a" : "", option->name,
              value ? value : "");
     if (parse(line))
         return true;
-    if (!strstr(error.message, "unknown option") && !strstr(error.message, "is refused"))
+    if (!strstr(error.message, "unknown option") && !strstr(error.message, "is refused") &&
+        !strstr(error.message, "makes no sense"))
         fail_msg("%s: %s", line, error.message);
     return false;
+}
+
+static const OptionRow *row_of(const Command *command, const char *name)
+{
+    const OptionRow *row = command->options;
+    while (row->name && strcmp(row->name, name) != 0)
+        row++;
+    return row->name ? row : NULL;
 }
 
 static void help_lists_what_is_taken_and_nothing_else(void **state)
 {
     (void)state;
     int taken = 0, refused = 0;
-    for (const CommandRow *row = cli_table.commands; row->name; row++) {
-        if (row->command == COMMAND_HELP)
-            continue;
-        char *help = help_of(row->command);
-        for (const OptionRow *option = cli_table.options; option->name; option++) {
-            char listed[64];
-            snprintf(listed, sizeof listed, "\n  %s ", option->name);
-            if (takes(row, option) != (strstr(help, listed) != NULL))
-                fail_msg("slosh %s %s is %s", row->name, option->name,
-                         strstr(help, listed) ? "listed and refused" : "taken and not listed");
-            taken += strstr(help, listed) != NULL;
-            refused += strstr(help, listed) == NULL;
-        }
+    for (CommandList at = cli_commands; *at; at++) {
+        char *help = help_of((*at)->name);
+        for (CommandList other = cli_commands; *other; other++)
+            for (const OptionRow *option = (*other)->options; option->name; option++) {
+                const OptionRow *own = row_of(*at, option->name);
+                char listed[64];
+                snprintf(listed, sizeof listed, "\n  %s ", option->name);
+                const bool lists = strstr(help, listed) != NULL;
+                if (takes(*at, own ? own : option) != lists)
+                    fail_msg("slosh %s %s is %s", (*at)->name, option->name,
+                             lists ? "listed and refused" : "taken and not listed");
+                taken += lists;
+                refused += !lists;
+            }
         assert_null(strstr(help, "refused"));
         free(help);
     }
     assert_true(taken > 100 && refused > 50);
 }
 
-/* The names that --backend and its like may have come from the lists that the scene's keys have. */
+/* A command's table fits the bits of Args.given, names no option twice, and asks for options that are there.
+ */
+static void tables_are_whole(void **state)
+{
+    (void)state;
+    for (CommandList at = cli_commands; *at; at++) {
+        assert_true((*at)->name && (*at)->usage && (*at)->help && (*at)->takes && (*at)->run);
+        const OptionRow *options = (*at)->options;
+        int rows = 0;
+        for (; options[rows].name; rows++) {
+            assert_ptr_equal(row_of(*at, options[rows].name), &options[rows]);
+            assert_true(!options[rows].needs || row_of(*at, options[rows].needs));
+            assert_true(!(options[rows].flags & OPTION_OWN) || options[rows].offset < (*at)->own_size);
+        }
+        assert_true(rows <= 64);
+    }
+}
+
+/* Names for --backend and similar options come from the lists of the scene's keys. */
 static void help_names_what_there_is(void **state)
 {
     (void)state;
-    char *bench = help_of(COMMAND_BENCH), *play = help_of(COMMAND_PLAY);
+    char *bench = help_of("bench"), *play = help_of("play");
     for (int i = 0; bench_table_choice(i); i++)
         assert_non_null(strstr(bench, bench_table_choice(i)));
     assert_non_null(strstr(play, "the equations of the solver: mueller, wcsph, dfsph, pbf\n"));
@@ -395,7 +461,7 @@ static void help_names_what_there_is(void **state)
     free(play);
 }
 
-/* Messages name the option, not the key that it stands for. */
+/* Messages name the option, not the key behind the option. */
 static void options_keep_their_words(void **state)
 {
     (void)state;
@@ -403,6 +469,30 @@ static void options_keep_their_words(void **state)
     assert_string_equal(args.settings.said[0], "--backend cuda");
     assert_null(args.settings.said[1]);
     assert_string_equal(args.settings.said[2], "--threads many");
+}
+
+static void a_command_of_ones_own(void **state)
+{
+    (void)state;
+    const Command *const list[] = {&command_toy, NULL};
+    char *plain[] = {"slosh", "toy"}, *full[] = {"slosh", "toy", "--sides", "12", "--word", "ab", "--word=c"};
+    args_free(&args);
+    assert_true(args_parse(list, 2, plain, &args, &error));
+    assert_int_equal(args.command->run(&args), 0);
+    assert_int_equal(toy_sum, 6);
+    args_free(&args);
+    assert_true(args_parse(list, 7, full, &args, &error));
+    assert_true(args_given(&args, "--word") && !args_given(&args, "--quiet"));
+    args.command->run(&args);
+    assert_int_equal(toy_sum, 15);
+    command_add(&command_toy);
+    accept("toy");
+    assert_true(is_command("toy"));
+    full[3] = "21";
+    args_free(&args);
+    assert_false(args_parse(list, 7, full, &args, &error));
+    assert_string_equal(error.message, "slosh toy: --sides must be 2 to 20, not 21");
+    args_free(&args);
 }
 
 int main(void)
@@ -420,9 +510,11 @@ int main(void)
         cmocka_unit_test(too_many_are_refused),
         cmocka_unit_test(play_is_what_is_meant_without_a_command),
         cmocka_unit_test(help_comes_from_the_table),
+        cmocka_unit_test(tables_are_whole),
         cmocka_unit_test(help_lists_what_is_taken_and_nothing_else),
         cmocka_unit_test(help_names_what_there_is),
         cmocka_unit_test(options_keep_their_words),
+        cmocka_unit_test(a_command_of_ones_own), /* the last: it stays in the list */
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 /* Published tables beside made-up measurements: each figure stands in its row. */
 #include "tests/sim/fixture.h"
 
-#include "app/bench/bench_table.h"
-#include "sim/gpu/gl_context.h"
+#include "app/bench/bench.h"
+#include "sim/gpu/gl.h"
 
 static BenchResult made_up(size_t particles, const char *view, const char *backend)
 {
@@ -32,7 +32,8 @@ static char *printed(const char *name, const BenchResult *results, size_t count)
     return text;
 }
 
-/* The words of the first line that begins with those particles and holds `label`, one blank between them. */
+/* The words of the first line that begins with the particles and contains `label`, separated by single
+   blanks. */
 static void expect(const char *text, const char *label, const char *row)
 {
     char words[512] = "";

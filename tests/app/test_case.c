@@ -1,5 +1,5 @@
-/* The references of the known flows, each found by another way than the case itself goes, and the states at
-   the start that fills cannot say. */
+/* The references of the known flows, each derived differently than in the case, and start states beyond
+   fills. */
 #include "tests/sim/fixture.h"
 
 #include "app/bench/cases/case.h"
@@ -83,7 +83,7 @@ static void channels_start_as_diffusion_does(void **state)
     }
 }
 
-/* The drop keeps its energy, which goes as A^2 (a^2 + b^2), and its area; A = -a' / a. */
+/* The drop keeps energy, proportional to A^2 (a^2 + b^2), and area; A = -a' / a. */
 static void an_ellipse_keeps_its_energy(void **state)
 {
     (void)state;
@@ -107,7 +107,7 @@ static void an_ellipse_keeps_its_energy(void **state)
     close_case();
 }
 
-/* Energy that falls as the formula says, at a viscosity of its own, and 10 % faster. */
+/* Energy that falls by the formula with a known viscosity, and 10 % faster. */
 static void vortices_lose_energy_by_their_dissipation(void **state)
 {
     (void)state;
@@ -128,8 +128,8 @@ static void vortices_lose_energy_by_their_dissipation(void **state)
     }
 }
 
-/* Nothing is made or lost, nothing passes the floor or the sides, and what rises at one wall sinks at the
-   other: the rate of the surface is omega times its height at its greatest. */
+/* Volume is conserved, floor and sides are tight, and the surface rises at a wall as much as the surface
+   sinks at the opposite wall. The rate is omega times the greatest height. */
 static void a_wave_starts_without_sources(void **state)
 {
     (void)state;

@@ -6,14 +6,23 @@
 
 #include <unistd.h>
 
-static ChartRows rows, again;
+static Trials kept = {.table = &chart_table};
+static ChartRows rows = {.trials = &kept};
+static Trials again = {.table = &chart_table};
 static Error error;
+
+static const ChartRow *again_row(int i)
+{
+    return trials_row(&again, i);
+}
 
 static ChartRow *add(ChartRole role, double spacing, double seconds, double off)
 {
-    ChartRow *row = &rows.row[rows.count];
-    *row =
-        (ChartRow){.key = 100 + (uint64_t)rows.count, .role = role, .spacing = spacing, .seconds = seconds};
+    static ChartRow none;
+    ChartRow *row = trials_append(rows.trials, &none);
+    *row = (ChartRow){
+        .key = 99 + (uint64_t)rows.trials->count, .role = role, .spacing = spacing, .seconds = seconds};
+    rows.trials->keys[rows.trials->count - 1] = row->key;
     snprintf(row->method, NAME_SIZE, "wcsph");
     snprintf(row->backend, NAME_SIZE, "cpu");
     snprintf(row->step, NAME_SIZE, "number 0.3");
@@ -21,12 +30,10 @@ static ChartRow *add(ChartRole role, double spacing, double seconds, double off)
     row->outcome = (Outcome){.kind = OUTCOME_HOLDS, .time = (double)NAN};
     rows.metric_count = metric_defaults(rows.metrics);
     row->error = off;
-    rows.count++;
     return row;
 }
 
-/* A centre that goes from 0 to 2 along x, an energy that goes from 0 to 8, both too great by `shift` of that.
- */
+/* A centre from 0 to 2 along x, an energy from 0 to 8, each too large by the fraction `shift`. */
 static void set_series(ChartRow *row, double shift)
 {
     for (int t = 0; t < CHART_TIMES; t++) {
@@ -39,26 +46,27 @@ static void set_series(ChartRow *row, double shift)
 static void distances_are_over_the_range(void **state)
 {
     (void)state;
-    rows.count = 0;
+    rows.trials->count = 0;
     set_series(add(CHART_POINT, 0.1, 1, 0), 0.25);
     set_series(add(CHART_POINT, 0.05, 2, 0), 0.125);
     set_series(add(CHART_REFERENCE, 0.02, 9, 0), 0);
     assert_true(isnan(chart_rows_compare(&rows)));
-    assert_true(fabs(rows.row[0].error - 0.25) < 1e-12 && fabs(rows.row[1].error - 0.125) < 1e-12);
-    assert_true(rows.row[2].error == 0);
+    assert_true(fabs(chart_row(&rows, 0)->error - 0.25) < 1e-12 &&
+                fabs(chart_row(&rows, 1)->error - 0.125) < 1e-12);
+    assert_true(chart_row(&rows, 2)->error == 0);
     for (int i = 0; i < 3; i++)
         set_series(add(CHART_FLOOR, 0.1, 1, 0), 1e-3 * i * i);
     set_series(add(CHART_FLOOR, 0.1, (double)NAN, 0), 9); /* broke on the way: its series ends anywhere */
     assert_true(fabs(chart_rows_compare(&rows) - 4e-3) < 1e-12);
-    rows.row[2].seconds = (double)NAN;
+    chart_row(&rows, 2)->seconds = (double)NAN;
     assert_null(chart_rows_reference(&rows));
 }
 
-/* A fluid that fills its box keeps its centre: only its energy tells two runs apart. */
+/* Fluid that fills the box keeps the centre: only energy tells two runs apart. */
 static void what_does_not_change_is_left_out(void **state)
 {
     (void)state;
-    rows.count = 0;
+    rows.trials->count = 0;
     ChartRow *row = add(CHART_POINT, 0.1, 1, 0), *reference = add(CHART_REFERENCE, 0.02, 9, 0);
     set_series(row, 0.25);
     set_series(reference, 0);
@@ -74,11 +82,11 @@ static void what_does_not_change_is_left_out(void **state)
     assert_true(isnan(chart_distance(&rows, row, reference)));
 }
 
-/* Metrics count alike, whatever their units; what a metric has at no time, or one run alone, is left out. */
+/* Metrics have equal weight in any unit; metrics missing in a run are left out. */
 static void metrics_count_alike(void **state)
 {
     (void)state;
-    rows.count = 0;
+    rows.trials->count = 0;
     ChartRow *row = add(CHART_POINT, 0.1, 1, 0), *reference = add(CHART_REFERENCE, 0.02, 9, 0);
     set_series(row, 0);
     set_series(reference, 0);
@@ -98,11 +106,11 @@ static void metrics_count_alike(void **state)
     assert_true(isnan(chart_distance(&rows, row, reference)));
 }
 
-/* Each probe over its own range, and all of them as one metric: those that do not change are left out. */
+/* Each probe relative to the probe's range, all combined to a metric; constant probes are left out. */
 static void probes_count_as_one(void **state)
 {
     (void)state;
-    rows.count = 0;
+    rows.trials->count = 0;
     ChartRow *row = add(CHART_POINT, 0.1, 1, 0), *reference = add(CHART_REFERENCE, 0.02, 9, 0);
     for (rows.metrics[1] = 0; metric_kinds[rows.metrics[1]].numbers != 0; rows.metrics[1]++)
         ;
@@ -127,7 +135,7 @@ static void probes_count_as_one(void **state)
 static void nothing_on_the_front_is_beaten(void **state)
 {
     (void)state;
-    rows.count = 0;
+    rows.trials->count = 0;
     add(CHART_POINT, 0.1, 1, 0.3);
     add(CHART_POINT, 0.1, 2, 0.3); /* as near, but dearer */
     add(CHART_POINT, 0.1, 3, 0.1);
@@ -135,12 +143,11 @@ static void nothing_on_the_front_is_beaten(void **state)
     add(CHART_POINT, 0.1, (double)NAN, 0.01); /* broke */
     add(CHART_REFERENCE, 0.1, 0.5, 0);
     const bool front[] = {true, false, true, false, false, false};
-    for (int i = 0; i < rows.count; i++)
+    for (int i = 0; i < rows.trials->count; i++)
         assert_true(chart_on_front(&rows, i) == front[i]);
 }
 
-/* Lines of error ~ spacing^2 and ~ spacing, what is best for its time with its settings, the floor, the
- * words. */
+/* Lines of error ~ spacing^2 and ~ spacing, the best settings for the time, the floor, the words. */
 static void the_chart_says_its_orders(void **state)
 {
     (void)state;
@@ -148,7 +155,7 @@ static void the_chart_says_its_orders(void **state)
     static char svg[1 << 20];
     const ChartWords words = {"A title", "error: front", "backend x left out: none here"};
     scratch_file(file_path, ".svg");
-    rows.count = 0;
+    rows.trials->count = 0;
     for (int i = 0; i < 3; i++) {
         const double spacing = 0.1 / (1 << i);
         add(CHART_POINT, spacing, pow(8, i), spacing * spacing)->particles = 1000 + (size_t)i;
@@ -195,29 +202,29 @@ static int remove_file(void **state)
 static void a_file_keeps_them(void **state)
 {
     (void)state;
-    assert_true(chart_rows_read(&again, path, NULL, &error)); /* empty */
+    assert_true(trials_read(&again, path, NULL, &error)); /* empty */
     assert_int_equal(again.count, 0);
-    rows.count = 0;
+    rows.trials->count = 0;
     set_series(add(CHART_POINT, 0.125, 1.5, 0.25), 0.5);
-    snprintf(rows.row[0].swept, CHART_SWEPT, "gravity=[0, -9, 0] kernel=cubic");
+    snprintf(chart_row(&rows, 0)->swept, CHART_SWEPT, "gravity=[0, -9, 0] kernel=cubic");
     add(CHART_FLOOR, 0.25, (double)NAN, (double)NAN)->outcome =
         (Outcome){OUTCOME_BLOWN_UP, 0.375, "a particle moves too far, much too far"};
-    assert_true(chart_rows_write(&rows, path, &error));
-    assert_true(chart_rows_read(&again, path, NULL, &error));
+    assert_true(trials_write(rows.trials, path, &error));
+    assert_true(trials_read(&again, path, NULL, &error));
     assert_int_equal(again.count, 2);
-    const ChartRow *row = chart_rows_find(&again, 100);
+    const ChartRow *row = trials_find(&again, 100);
     assert_non_null(row);
     assert_true(row->spacing == 0.125 && row->seconds == 1.5 && row->error == 0.25);
     assert_string_equal(row->step, "number 0.3");
     assert_true(fabs(row->series[CHART_TIMES - 1][3] - 12) < 1e-9);
-    assert_true(isnan(again.row[1].seconds) && again.row[1].role == CHART_FLOOR);
+    assert_true(isnan(again_row(1)->seconds) && again_row(1)->role == CHART_FLOOR);
     assert_true(row->outcome.kind == OUTCOME_HOLDS && isnan(row->outcome.time) && !*row->outcome.words);
-    assert_true(again.row[1].outcome.kind == OUTCOME_BLOWN_UP && again.row[1].outcome.time == 0.375);
-    assert_string_equal(again.row[1].outcome.words, rows.row[1].outcome.words);
+    assert_true(again_row(1)->outcome.kind == OUTCOME_BLOWN_UP && again_row(1)->outcome.time == 0.375);
+    assert_string_equal(again_row(1)->outcome.words, chart_row(&rows, 1)->outcome.words);
     assert_string_equal(row->swept, "gravity=[0, -9, 0] kernel=cubic");
-    assert_string_equal(again.row[1].swept, "");
-    assert_null(chart_rows_find(&again, 7));
-    assert_false(chart_rows_write(&rows, "/no/such/folder/x.csv", &error));
+    assert_string_equal(again_row(1)->swept, "");
+    assert_null(trials_find(&again, 7));
+    assert_false(trials_write(rows.trials, "/no/such/folder/x.csv", &error));
 }
 
 static void write_text(const char *text, size_t size)
@@ -228,33 +235,33 @@ static void write_text(const char *text, size_t size)
     fclose(file);
 }
 
-/* Wherever the file is cut, and whatever letter of a row is spoilt, no row is read but those that were
-   written. */
+/* Wherever the file is cut or a row is damaged, only rows that were written are read. */
 static void half_a_row_is_none(void **state)
 {
     (void)state;
     static char whole[16384];
-    rows.count = 0;
+    rows.trials->count = 0;
     for (int i = 0; i < 2; i++)
         set_series(add(CHART_POINT, 0.125, 1.5, 0.25), 0.5 + i);
-    assert_true(chart_rows_write(&rows, path, &error));
-    assert_true(chart_rows_read(&rows, path, NULL, &error)); /* as printed */
+    assert_true(trials_write(rows.trials, path, &error));
+    assert_true(trials_read(rows.trials, path, NULL, &error)); /* as printed */
     FILE *file = fopen(path, "r");
     const size_t size = fread(whole, 1, sizeof whole, file);
     fclose(file);
     const size_t second = (size_t)(strstr(whole, "0000000000000065,") - whole);
     for (size_t cut = second; cut < size; cut += cut < second + 200 || cut > size - 20 ? 1 : 97) {
         write_text(whole, cut);
-        assert_true(chart_rows_read(&again, path, NULL, &error));
+        assert_true(trials_read(&again, path, NULL, &error));
         assert_int_equal(again.count, 1);
-        assert_memory_equal(again.row[0].series, rows.row[0].series, sizeof rows.row[0].series);
+        assert_memory_equal(again_row(0)->series, chart_row(&rows, 0)->series,
+                            sizeof chart_row(&rows, 0)->series);
     }
     for (size_t at = second; at < size; at++)
         if (strchr(", ;", whole[at]) && strncmp(whole + at, " 0.3", 4) != 0) { /* that is in a name */
             const char right = whole[at];
             whole[at] = 'x';
             write_text(whole, size);
-            assert_true(chart_rows_read(&again, path, NULL, &error));
+            assert_true(trials_read(&again, path, NULL, &error));
             assert_int_equal(again.count, 1);
             whole[at] = right;
         }
@@ -280,12 +287,12 @@ static void an_impossible_row_is_left_out(void **state)
                                         "particles",
                                         "row"};
     static char whole[16384], spoilt[16384];
-    rows.count = 0;
+    rows.trials->count = 0;
     for (int i = 0; i < 2; i++) {
         add(CHART_POINT, 0.125, 1.5, 0.25);
-        rows.row[i].particles = 1000;
+        chart_row(&rows, i)->particles = 1000;
     }
-    assert_true(chart_rows_write(&rows, path, &error));
+    assert_true(trials_write(rows.trials, path, &error));
     FILE *file = fopen(path, "r");
     whole[fread(whole, 1, sizeof whole - 1, file)] = '\0';
     fclose(file);
@@ -299,7 +306,7 @@ static void an_impossible_row_is_left_out(void **state)
                  cell + strlen(cells[i][0]));
         write_text(spoilt, strlen(spoilt));
         file = open_memstream(&said, &size);
-        assert_true(chart_rows_read(&again, path, file, &error));
+        assert_true(trials_read(&again, path, file, &error));
         fclose(file);
         assert_int_equal(again.count, 1);
         snprintf(expected, sizeof expected,
@@ -315,13 +322,13 @@ static void another_s_file_is_kept(void **state)
     (void)state;
     static const char theirs[] = "day,rain\n1,0.5\n", older[] = "key,role,method,backend,more\n1,0,a,b,c\n";
     write_text(theirs, sizeof theirs - 1);
-    assert_false(chart_rows_read(&again, path, NULL, &error));
+    assert_false(trials_read(&again, path, NULL, &error));
     assert_non_null(strstr(error.message, "no chart wrote it"));
     write_text(older, sizeof older - 1);
     char *said = NULL, expected[400];
     size_t size = 0;
     FILE *file = open_memstream(&said, &size);
-    assert_true(chart_rows_read(&again, path, file, &error));
+    assert_true(trials_read(&again, path, file, &error));
     fclose(file);
     assert_int_equal(again.count, 0);
     snprintf(expected, sizeof expected,
@@ -330,50 +337,52 @@ static void another_s_file_is_kept(void **state)
     free(said);
 }
 
-/* What cannot be read may be the user's: here a link to itself. */
+/* An unreadable file may belong to the user: here a link to the same path. */
 static void an_unreadable_file_is_kept(void **state)
 {
     (void)state;
     assert_int_equal(unlink(path), 0);
-    assert_true(chart_rows_read(&again, path, NULL, &error)); /* none */
+    assert_true(trials_read(&again, path, NULL, &error)); /* none */
     assert_int_equal(symlink(path, path), 0);
-    assert_false(chart_rows_read(&again, path, NULL, &error));
+    assert_false(trials_read(&again, path, NULL, &error));
     assert_non_null(strstr(error.message, "cannot be read"));
 }
 
-/* Two charts under one name: neither loses what the other has written. A full file gives up its oldest. */
+/* Two charts write to the same file: no rows are lost. A full file drops the oldest rows. */
 static void others_rows_stay(void **state)
 {
     (void)state;
-    static ChartRows mine, plan;
-    rows.count = mine.count = plan.count = 0;
+    Trials mine = {.table = &chart_table}, plan = {.table = &chart_table};
+    rows.trials->count = 0;
     add(CHART_POINT, 0.1, 1, 0);
     add(CHART_POINT, 0.2, 1, 0);
-    assert_true(chart_rows_write(&rows, path, &error));
-    mine.row[mine.count++] = rows.row[1];
-    chart_rows_merge(&mine, path, &plan);
+    assert_true(trials_write(rows.trials, path, &error));
+    assert_non_null(trials_append(&mine, chart_row(&rows, 1)));
+    assert_true(trials_merge(&mine, path, &plan, &error));
     assert_int_equal(mine.count, 2);
-    assert_non_null(chart_rows_find(&mine, 100));
+    assert_non_null(trials_find(&mine, 100));
 
-    rows.count = 0;
-    while (rows.count < CHART_ROWS_MAX)
+    rows.trials->count = 0;
+    while (rows.trials->count < CHART_ROWS_MAX)
         add(CHART_POINT, 0.1, 1, 0);
-    plan.row[plan.count++] = rows.row[0];
-    ChartRow next = rows.row[0];
+    assert_non_null(trials_append(&plan, chart_row(&rows, 0)));
+    ChartRow next = *chart_row(&rows, 0);
     next.key = 7;
-    chart_rows_add(&rows, &next, &plan);
-    assert_int_equal(rows.count, CHART_ROWS_MAX);
-    assert_non_null(chart_rows_find(&rows, 7));
-    assert_non_null(chart_rows_find(&rows, 100));
-    assert_null(chart_rows_find(&rows, 101));
-    assert_non_null(chart_rows_find(&rows, 102));
+    assert_true(trials_add(rows.trials, &next, &plan));
+    assert_int_equal(rows.trials->count, CHART_ROWS_MAX);
+    assert_non_null(trials_find(rows.trials, 7));
+    assert_non_null(trials_find(rows.trials, 100));
+    assert_null(trials_find(rows.trials, 101));
+    assert_non_null(trials_find(rows.trials, 102));
+    trials_free(&mine);
+    trials_free(&plan);
 }
 
 /* A line that opens with `first`: an order, or why there is none. */
 static void assert_order(double a, double b, double c, double floor, const char *expected)
 {
     const char *why;
-    rows.count = 0;
+    rows.trials->count = 0;
     add(CHART_POINT, 0.2, 1, a);
     add(CHART_POINT, 0.15, 2, b);
     add(CHART_POINT, 0.1, 4, c);

@@ -1,8 +1,8 @@
-/* Settings of a chart's runs: what a row says is what its scene has. */
+/* Settings of a chart's runs: each row describes the row's scene. */
 #include "tests/sim/fixture.h"
 
 #include "app/lab/error_chart.h"
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@ static Scene scene, own;
 static ChartRow row;
 static Error error;
 
-/* The run of dam_break, whose steps are fixed, with these settings. */
+/* The run of dam_break, with fixed steps and these settings. */
 static void prepare(const ChartJob *job, SceneSettings *settings)
 {
     static const char path[] = SLOSH_SOURCE_DIR "/scenes/dam_break.yaml";
@@ -26,7 +26,7 @@ static double step_of(const Scene *of)
     return of->world.dt / of->world.substeps;
 }
 
-/* --particles takes the step along; a coarser spacing, and a finer step, then change that one. */
+/* --particles changes the step too; a coarser spacing and a finer step then change the new step. */
 static void a_fixed_step_goes_with_the_particles(void **state)
 {
     (void)state;
@@ -54,7 +54,7 @@ static void a_chosen_step_stays(void **state)
     assert_true(fabs(scene.world.dt - 0.011) < 1e-9);
 }
 
-/* A row's name has each swept value, or leaves to its step what the step says once the spacing changed it. */
+/* A row's name contains each swept value, except step values derived from the spacing. */
 static void a_step_has_one_name(void **state)
 {
     (void)state;
@@ -73,8 +73,7 @@ static void a_step_has_one_name(void **state)
     assert_int_equal(scene.world.substeps, 6);
 }
 
-/* A coarser spacing that gives the fills no whole layers: the row has the one that is taken, and nothing is
-   said of it. */
+/* A coarser spacing without whole layers in the fills: the row has the chosen spacing, without a note. */
 static void a_row_has_the_spacing_that_runs(void **state)
 {
     (void)state;

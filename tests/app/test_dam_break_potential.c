@@ -1,14 +1,11 @@
-/* The collapse of a column without viscosity, solved by boundary elements: what
-   scenes/reference/dam-break-potential.csv holds.
-
-   after: M. S. Longuet-Higgins, E. D. Cokelet, "The deformation of steep surface waves on water. I. A
-   numerical method of computation", 1976: the surface's points go with the fluid, D phi / D t = v^2 / 2 - g y
-   on them, and Laplace's equation gives the velocity across the surface from phi on it. The walls x = 0 and y
-   = 0 are mirrors, so that nothing but the surface has elements. Lengths over the column's width a, times
-   over sqrt(a / g).
-
-   SLOSH_POTENTIAL=FILE writes that file anew, with more elements; SLOSH_POTENTIAL_WALL=FILE the pressures of
-   dam-break-pressure.csv, which go on where the fluid meets an end wall, a mirror too from then on. */
+/* The collapse of a column without viscosity by boundary elements, as in scenes/reference/dam-break-
+   potential.csv. After: M. S. Longuet-Higgins, E. D. Cokelet, "The deformation of steep surface waves on
+   water. I. A numerical method of computation", 1976. The surface's points move with the fluid, D phi / D
+   t = v^2 / 2 - g y on the surface. Laplace's equation gives the velocity across the surface from phi.
+   The walls x = 0 and y = 0 are mirrors, so only the surface has elements. Lengths over the column's
+   width a, times over sqrt(a / g). SLOSH_POTENTIAL=FILE rewrites the file with more elements.
+   SLOSH_POTENTIAL_WALL=FILE writes the pressures of dam-break-pressure.csv: the run continues after the
+   fluid meets an end wall, then a mirror too. */
 #include "tests/sim/fixture.h"
 
 #include "app/bench/cases/case.h"
@@ -21,7 +18,7 @@ static const double PI = 3.14159265358979;
 /* From the top at the wall x = 0 to the toe on the floor y = 0, or to the end wall once the fluid is there;
    the fluid is on the right. */
 typedef struct Surface {
-    int elements; /* points: one more */
+    int elements; /* points: an extra */
     double wall;  /* x of the end wall, which is a mirror too, once the fluid is there; 0: not yet */
     double x[MOST + 1], y[MOST + 1], phi[MOST + 1];
 } Surface;
@@ -37,8 +34,9 @@ static void integrals(const double p[2], const double a[2], const double b[2], d
     *single = 0.5 * (to * log(to * to + h * h) - from * log(from * from + h * h)) - length + h * *normal;
 }
 
-/* With the mirrors x = 0 and x = wall fluid repeats, every 2 walls: the sum of ln r over all these is that of
-   the middle one and its two neighbours and ln |sin w / (w (1 - w^2 / pi^2))|, w = pi z / (2 wall). */
+/* With the mirrors x = 0 and x = wall the fluid repeats every 2 walls. The sum of ln r over all images is
+   the sum of the middle image and two neighbours, plus ln |sin w / (w (1 - w^2 / pi^2))|, w = pi z / (2
+   wall). */
 static double complex rest_of_images(double complex z, double wall)
 {
     const double complex w = PI / (2 * wall) * z;
@@ -271,7 +269,7 @@ static void land(Surface *s, double wall)
     *s = spread(s, elements, FINER_AT_WALL);
 }
 
-/* What rises along the end wall as a layer thinner than that is cut off: nothing presses there. */
+/* A layer along the end wall thinner than this is cut off: without pressure. */
 static void cut_jet(Surface *s, double thinnest)
 {
     const int elements = s->elements;
@@ -303,8 +301,8 @@ enum { PLACES = 5 };
 
 static const double STRIP = 0.2; /* of the walls, from the floor up */
 
-/* Pressure over rho g a on the lowest part of the wall at x, its mean: Bernoulli, with d phi / d t a
-   potential of its own, which on the surface is -v^2 / 2 - g y. */
+/* Mean pressure over rho g a on the lowest part of the wall at x, by Bernoulli. d phi / d t is a separate
+   potential, -v^2 / 2 - g y on the surface. */
 static double pressure_at(const Surface *s, double x)
 {
     const Surface rate = rates(s);
@@ -346,8 +344,8 @@ static Surface fall(int elements, double dt, double z[ROWS], double h[ROWS])
     return s;
 }
 
-/* Pressure at T = 0.2, 0.4, ... 3.4 behind the column, and at 3.8, 3.85, ... 4.2 on a wall five widths away.
-   Of what comes there, the tip that is lower than `thinnest` is cut off, and so is the jet that rises. */
+/* Pressure at T = 0.2, 0.4, ... 3.4 behind the column, and at 3.8, 3.85, ... 4.2 on a wall five widths
+   away. The tip lower than `thinnest` is cut off, and the rising jet too. */
 enum { LANDED = 9 };
 static const double FIRST_LANDED = 3.8, EVERY_LANDED = 0.05;
 
@@ -423,7 +421,7 @@ static void the_file_of_pressure_is_this_flow(void **state)
     Error error = {{0}};
     double behind[ROWS], on[LANDED];
     const Surface begin = column(60), end = fall_on(60, 0.02, 0.06, behind, on);
-    assert_true(fabs(area(&end) / area(&begin) - 1) < 0.025); /* what was cut off */
+    assert_true(fabs(area(&end) / area(&begin) - 1) < 0.025); /* the part cut off */
     assert_true(reference_load("scenes/reference/dam-break-pressure.csv", &file, &error));
     assert_int_equal(file.rows, ROWS + LANDED);
     for (int row = 0; row < ROWS + LANDED; row++) {

@@ -1,8 +1,7 @@
-/* Formats of other programs: what stands in the bytes, and the world's frame by hand. */
+/* Formats of external programs: the bytes of the file, and the world's frame by hand. */
 #include "tests/app/output_fixture.h"
 
 #include "app/files/export.h"
-#include "app/files/export_formats.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -39,7 +38,8 @@ static char *read_all(const char *path, size_t *size)
     return bytes;
 }
 
-/* A box turned by 90 degrees about z: its x axis points along the world's y, its y along the world's -x. */
+/* A box turned by 90 degrees about z: the box's x axis points along the world's y, the box's y along the
+   world's -x. */
 static void the_worlds_frame_by_hand(void **state)
 {
     (void)state;
@@ -98,7 +98,7 @@ static void a_ply_is_read_back(void **state)
                                "property float density\nproperty float pressure\nproperty int fluid\n"
                                "property uint id\n";
     static const char color[] = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-    /* of the third fluid nothing is known; a number that is none, or out of range, does no harm */
+    /* the third fluid is unknown; non-finite and out-of-range numbers are harmless */
     static const PointColors colors = {.count = 2, .color = {{0, 0.5, 1}, {-1, 2, NAN}}};
     static const unsigned char bytes[3][3] = {{0, 128, 255}, {0, 255, 0}, {128, 128, 128}};
     SnapshotStep step = some_step(1000);
@@ -124,7 +124,7 @@ static void a_ply_is_read_back(void **state)
     snapshot_step_free(&step);
 }
 
-/* Viridis from dark violet to yellow; beyond its ends, and where a number is none, its ends. */
+/* Viridis from dark violet to yellow; the end colours beyond the ends and for non-finite values. */
 static void a_ply_is_coloured_by_a_scalar(void **state)
 {
     (void)state;
@@ -172,7 +172,7 @@ static int digit(char c)
     return at ? (int)(at - digits) : -1;
 }
 
-/* The bytes that stand as base64 at `text`, as many as there are; behind the last one is what is no digit. */
+/* All bytes of the base64 text at `text`; a non-digit follows. */
 static size_t decoded(const char *text, char *out, size_t room)
 {
     size_t size = 0;
@@ -405,22 +405,43 @@ static void a_failed_stream_is_told(void **state)
     snapshot_step_free(&step);
 }
 
+/* A format is a file or a series of files of another format; its name is told from all others. */
+static void formats_are_whole(void **state)
+{
+    (void)state;
+    for (int i = 0; export_format_at(i); i++) {
+        const ExportFormat *format = export_format_at(i);
+        char name[64];
+        snprintf(name, sizeof name, "x.%s", format->extension);
+        assert_ptr_equal(export_format_find(name, format->holds, NULL), format);
+        assert_true(format->help && !format->write == !!format->each && !format->index == !format->each);
+        assert_true(!format->each || format->each->colored == format->colored);
+        assert_true(!format->each || (format->holds & ~format->each->holds) == 0);
+        for (int j = 0; j < i; j++) /* no two formats for the same */
+            assert_true(strcmp(export_format_at(j)->extension, format->extension) != 0 ||
+                        (export_format_at(j)->holds & format->holds) == 0);
+    }
+}
+
 static void the_extension_says_what_is_written(void **state)
 {
     (void)state;
     static const char *const others[] = {"a",  "a.h5part", ".ply",   "a.vtp/b",  "",
                                          "a.", "a.plyx",   "b/.vtp", "a.series", ".ply.series"};
-    ExportKind kind;
     Error error = {{0}};
-    assert_true(export_kind("a.b/c.PVD", &kind, &error) && kind == EXPORT_PVD);
-    assert_true(export_kind("a.vtp", &kind, &error) && kind == EXPORT_VTP);
-    assert_true(export_kind("a.vtp.ply", &kind, &error) && kind == EXPORT_PLY);
-    assert_true(export_kind("b/a.ply.Series", &kind, &error) && kind == EXPORT_PLY_SERIES);
-    assert_true(export_is_series(EXPORT_PLY_SERIES) && export_is_series(EXPORT_PVD));
-    assert_false(export_is_series(EXPORT_PLY) || export_is_series(EXPORT_VTP));
+    static const char *const names[][2] = {
+        {"a.b/c.PVD", "pvd"}, {"a.vtp", "vtp"}, {"a.vtp.ply", "ply"}, {"b/a.ply.Series", "ply.series"}};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        assert_string_equal(export_format_find(names[i][0], EXPORT_SNAPSHOT, &error)->extension, names[i][1]);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
-        assert_false(export_kind(others[i], &kind, &error));
-        assert_contains(error.message, "use .pvd, .vtp or .ply");
+        assert_null(export_format_find(others[i], EXPORT_SNAPSHOT, &error));
+        assert_contains(error.message, "format from");
+        assert_contains(error.message, "use .pvd, .vtp, .ply, .ply.series, .obj or .obj.series");
+        assert_null(export_format_find(others[i], EXPORT_SLICE, &error));
+        assert_contains(error.message, "format of a slice from");
+        assert_contains(error.message, "use .vti, .csv or .pvd");
+        assert_null(export_format_find(others[i], EXPORT_LINES, &error));
+        assert_contains(error.message, "use .vtp");
     }
 }
 
@@ -439,6 +460,7 @@ int main(void)
         TEST(a_series_of_ply_has_an_index_in_json),
         TEST(the_index_names_its_files),
         TEST(a_failed_stream_is_told),
+        TEST(formats_are_whole),
         TEST(the_extension_says_what_is_written),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

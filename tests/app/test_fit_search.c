@@ -17,9 +17,9 @@ typedef struct Toy {
     bool hard;         /* all but the shortest steps break */
     int seed;
     int asked, stop_at; /* runs; 0: never */
-    double best;        /* of what was run, within the goal; INFINITY: nothing yet */
+    double best;        /* best run within the goal; INFINITY: none yet */
     const FitGoal *goal;
-    bool repeats_fail; /* those of the first that is repeated */
+    bool repeats_fail; /* results of the first repeated setting */
 } Toy;
 
 static unsigned mix(const Toy *toy, const FitPoint *point, unsigned salt)
@@ -66,7 +66,7 @@ static bool exists(void *of, const FitPoint *point)
     return point->at[LINE] != 2 || point->at[TERM] != 3;
 }
 
-/* Whether its next coarser rung is within: it may be asked for to confirm that. */
+/* True if the next coarser rung is within the goal: may be requested as confirmation. */
 static bool confirms(Toy *toy, FitPoint point)
 {
     if (point.at[RUNG]-- == 0)
@@ -203,7 +203,8 @@ static void errors_that_do_not_fall(void **state)
     assert_true(off[SEARCHES / 2] <= 1.1 && off[SEARCHES * 9 / 10] <= 2.3);
 }
 
-/* Nothing is within: nothing is chosen, and the nearest is. Nothing holds: there is none. */
+/* Without a setting within the goal none is chosen, and the nearest is reported. If no setting holds,
+   there is no nearest. */
 static void nothing_within(void **state)
 {
     (void)state;

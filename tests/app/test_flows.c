@@ -1,5 +1,5 @@
-/* Flows that are known, small: the scenes taylor_green, poiseuille, couette and cavity, coarser than they are
-   shipped. docs/validation.md has the errors of the fine ones. */
+/* Small known flows: the scenes taylor_green, poiseuille, couette and cavity, coarser than shipped.
+   docs/labbook/validation.md has the errors at full resolution. */
 #include "tests/scene/scene_text.h"
 
 #include "slosh/world.h"

@@ -1,8 +1,8 @@
-/* What validate measures, of particles set by hand, and what it makes of rows of points. */
+/* Quantities of validate, for particles set by hand, and results from rows of points. */
 #include "tests/sim/fixture.h"
 
 #include "app/bench/cases/case.h"
-#include "app/run/measure/metric.h"
+#include "app/run/measure/measure.h"
 #include "slosh/world.h"
 
 enum { MOST = 4000 };
@@ -35,7 +35,7 @@ static void near(double value, double right, double tolerance)
         fail_msg("%.9g, not %.9g", value, right);
 }
 
-/* A block 5 wide and 4 high, a spray in front of it, and a foremost one that is too high. */
+/* A block 5 wide and 4 high, spray in front, and a foremost particle that is too high. */
 static void front_is_the_foremost_of_the_low_with_neighbours(void **state)
 {
     (void)state;
@@ -51,7 +51,7 @@ static void front_is_the_foremost_of_the_low_with_neighbours(void **state)
     assert_true(isnan(metric_front(&cloud)));
 }
 
-/* A column with the right pressures but for one particle of 100 that has 10 % of rho g H too much. */
+/* A column with correct pressures, except 1 particle of 100 with 10 % of rho g H too much. */
 static void pressure_is_off_by_its_rms(void **state)
 {
     (void)state;
@@ -114,7 +114,7 @@ static void energies_are_those_of_the_masses(void **state)
     add(&cloud, 0, 2, 0);
     add(&cloud, 0, 1, 0);
     cloud.fluid[1] = 1;
-    cloud.density[0] = cloud.density[1] = 500; /* half its rest density, but it does not pull; at rest */
+    cloud.density[0] = cloud.density[1] = 500; /* half the rest density, without tension; at rest */
     cloud.velocity[0] = 3;
     cloud.velocity[5] = 4;
     metric_energies(&cloud, &def, &e);
@@ -169,7 +169,7 @@ static void swings_have_period_and_decay(void **state)
     curve_free(&peaks);
 }
 
-/* What could not be measured is never forgotten for what could. */
+/* A failed measurement is never replaced by a later value. */
 static void not_measured_is_the_worst(void **state)
 {
     (void)state;
@@ -207,8 +207,7 @@ static void a_cavity_half_empty_is_no_result(void **state)
     }
 }
 
-/* Every case has a scene that loads, methods that are there, tolerances, and a reference that is read; names
-   are each their own. */
+/* Every case has a loadable scene, existing methods, tolerances, a readable reference and a unique name. */
 static void cases_are_whole(void **state)
 {
     (void)state;
@@ -239,7 +238,7 @@ static void cases_are_whole(void **state)
                 case_tolerance(case_list[0], 0, CASE_DEFAULT, "wcsph"));
 }
 
-/* 4,000 particles, of them five pressed by 10 % and the others by 1 % or thinner than at rest, twice. */
+/* 4,000 particles, five compressed by 10 % and the rest by 1 % or thinner than at rest, twice. */
 static void compression_has_its_percentile(void **state)
 {
     (void)state;
@@ -255,7 +254,8 @@ static void compression_has_its_percentile(void **state)
     compression_add(&tally, &cloud, &def);
     near(compression_figures(&tally).mean, (5 * 0.1 + 1998 * 0.01) / MOST, 2e-6);
     near(compression_figures(&tally).p999, 0.1, 1e-3);
-    cloud.density[0] = cloud.density[1] = 1200; /* two above, eight at it: the eighth of 8,000 is at it */
+    cloud.density[0] = cloud.density[1] =
+        1200; /* two above, eight at the quantile: the eighth of 8,000 is at the quantile */
     compression_add(&tally, &cloud, &def);
     near(compression_figures(&tally).p999, 0.1, 1.1e-3);
     near(compression_figures(&tally).most, 0.2, 1e-6);

@@ -1,11 +1,10 @@
-/* What is told of a scene that is no error. */
+/* Notes about a scene without errors. */
 #include "app/scene/scene.h"
 
-#include "app/scene/keys.h"
 #include "app/scene/scene_private.h"
 #include "app/scene/yaml/yaml.h"
 #include "app/window/model.h"
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 #include "slosh/world.h"
 #include "tests/scene/scene_text.h"
 
@@ -53,13 +52,13 @@ static void a_line_has_its_place(void **state)
     assert_string_equal(notes.line[3], "solver.step.dt: long");
 }
 
-/* A column that falls, with a setting for each owner of keys that is not the default. */
+/* A falling column, with a non-default setting for each owner of keys. */
 static const char column[] = "box: {size: [1, 1]}\n"
                              "particles: {spacing: 0.1}\n"
                              "fluids: [{fill: [{block: {min: [-0.5, 0], max: [0, 0.8]}}]}]\n"
                              "solver: {negative_pressure: false}\n";
 
-/* Keys with an owner: a value, what brings the owner into use, and what says in a message that it lacks. */
+/* Keys with an owner: a value, the setting that brings the owner into use, and the message's words. */
 static const struct {
     const char *setting, *owner, *need;
     bool bits; /* the solver on cpu reads it */
@@ -74,6 +73,8 @@ static const struct {
     {"solver.corrected_gradient=true", "solver.method=wcsph", "solver.method: wcsph", true},
     {"solver.tolerance=1e-8", "solver.method=dfsph", "solver.method: dfsph", true},
     {"solver.divergence_tolerance=1e-8", "solver.method=dfsph", "solver.method: dfsph", true},
+    {"solver.surface_lack=1", "solver.method=dfsph", "solver.method: dfsph", false},
+    {"solver.rest_viscosity=0.3", "solver.method=dfsph", "solver.method: dfsph", true},
     {"solver.iterations=50", "solver.method=dfsph", "solver.method: dfsph", false},
     {"solver.compression=1e-6", "solver.method=pbf", "solver.method: pbf", true},
     {"solver.corrections=1", "solver.method=pbf", "solver.method: pbf", false},
@@ -145,7 +146,7 @@ static void a_key_without_its_owner_is_said(void **state)
     }
 }
 
-/* A view that draws no particles, or no field that is not opaque, has no use for curves. */
+/* A view without particles or without a translucent field has no use for curves. */
 static void a_view_without_curves_is_said(void **state)
 {
     (void)state;
@@ -164,7 +165,7 @@ static void a_view_without_curves_is_said(void **state)
         strstr(opaque.line[0], "view.opacity.by has no effect; it needs view.volume.look: translucent"));
 }
 
-/* Every row that has an owner is among those. */
+/* Every row with an owner is in the list. */
 static void every_owner_is_tried(void **state)
 {
     (void)state;
@@ -199,7 +200,7 @@ static uint64_t hash_with(const char *a, const char *b)
     return hash;
 }
 
-/* The solver itself says whose keys they are: only with the owner do they change a bit. */
+/* The solver confirms the owners: keys change bits only with the owner in use. */
 static void only_the_owner_reads_its_keys(void **state)
 {
     (void)state;
@@ -214,7 +215,7 @@ static void only_the_owner_reads_its_keys(void **state)
     }
 }
 
-/* A file serves many commands and views; what the command line says is for this one. */
+/* A file serves many commands and views; the command line is for a single run. */
 static void files_may_say_how_other_views_shall_be(void **state)
 {
     (void)state;
@@ -239,7 +240,8 @@ static void files_may_say_how_other_views_shall_be(void **state)
     assert_int_equal(window.count, 1);
 }
 
-/* In the window the lines stay while other keys change; a key that is changed there in vain is said too. */
+/* In the window the lines stay while different keys change; an ineffective change in the window is noted
+   too. */
 static void the_panel_keeps_the_lines(void **state)
 {
     (void)state;
@@ -247,8 +249,8 @@ static void the_panel_keeps_the_lines(void **state)
     Notes fresh = {.count = 0};
     open.notes = notes_of(column, "solver.shifting=0.2", NULL, SCENE_FOR_WINDOW, &open.scene);
     for (int i = 0; i < 2; i++)
-        play_scene_advise(&open, "solver.step.max_dt=0.1", &fresh);
-    play_scene_advise(&open, "gravity=[0, -1, 0]", &fresh);
+        play_scene_advise(&open, "solver.step.max_dt", &fresh);
+    play_scene_advise(&open, "gravity", &fresh);
     assert_int_equal(open.notes.lasting, 2);
     assert_true(strncmp(open.notes.line[0], "--set solver.shifting=0.2: ", 27) == 0);
     assert_string_equal(open.notes.line[1],
@@ -264,7 +266,7 @@ static bool is_told(const Notes *notes, const char *part)
     return false;
 }
 
-/* A block that its spacing does not divide, one of two layers, a ball. */
+/* A block not divisible by the spacing, a block of two layers, a ball. */
 static void what_fills_became_is_told(void **state)
 {
     (void)state;
@@ -283,7 +285,7 @@ static void what_fills_became_is_told(void **state)
     assert_true(is_told(&notes, "s.yaml:3:3: 0.06 m does not divide the fills into whole layers; 0.0"));
     assert_true(is_told(&notes, "s.yaml:7:5: 'drop' has "));
     assert_true(is_told(&notes, "s.yaml:8:13: the block is "));
-    assert_false(is_told(&notes, "s.yaml:5:5: 'fluid 1' has")); /* its mass is right */
+    assert_false(is_told(&notes, "s.yaml:5:5: 'fluid 1' has")); /* correct mass */
     SceneSettings fits = {.count = 1, .set = {"particles.spacing=0.02"}};
     assert_true(scene_parse("s.yaml", text, strlen(text), &fits, &scene, &notes, &error));
     assert_false(is_told(&notes, "whole layers"));

@@ -1,8 +1,7 @@
-/* What counts as which outcome, on made-up histories; what a look sees of places, and of worlds that fail. */
+/* Outcomes of made-up histories; findings of a look at places, and at failing worlds. */
 #include "tests/sim/fixture.h"
 
-#include "app/run/measure/metric.h"
-#include "app/run/measure/outcome.h"
+#include "app/run/measure/measure.h"
 #include "sim/methods/wcsph/wcsph.h"
 
 #include <jansson.h>
@@ -10,7 +9,7 @@
 static OutcomeHistory history;
 static Outcome outcome;
 
-/* Ten looks at a thousand particles that keep their energy, as far as a good solver does. */
+/* Ten looks at a thousand particles with constant energy, as with a good solver. */
 static int calm(void **state)
 {
     (void)state;
@@ -38,7 +37,7 @@ static void what_keeps_its_energy_holds(void **state)
     (void)state;
     expect(OUTCOME_HOLDS, (double)NAN, "holds");
     for (int i = 0; i < history.count; i++)
-        history.look[i].energy = (double)NAN; /* a box that is shaken: nothing is known */
+        history.look[i].energy = (double)NAN; /* a shaken box: unknown */
     expect(OUTCOME_HOLDS, (double)NAN, "holds");
     history.count = 0;
     expect(OUTCOME_HOLDS, (double)NAN, "holds");
@@ -46,7 +45,7 @@ static void what_keeps_its_energy_holds(void **state)
     expect(OUTCOME_HOLDS, (double)NAN, "holds");
 }
 
-/* Energy that falls before it grows is compared with the least, and what is not known is passed over. */
+/* Energy that falls before growing is compared with the minimum; unknown values are skipped. */
 static void energy_that_grows_is_noise(void **state)
 {
     (void)state;
@@ -104,7 +103,7 @@ static void particles_on_each_other_clump(void **state)
 {
     (void)state;
     for (int i = 0; i < history.count; i++)
-        history.look[i].close = 300; /* as it began */
+        history.look[i].close = 300; /* the begin */
     history.look[4].close = 300 + 95;
     expect(OUTCOME_HOLDS, (double)NAN, "holds");
     history.look[5].close = history.look[6].close = 300 + 105;
@@ -181,9 +180,9 @@ static void words_are_the_same_everywhere(void **state)
 
 static double together(const Cloud *cloud, double h, size_t stride)
 {
-    double value = -1;
-    assert_true(metric_common_motion(cloud, h, stride, &value));
-    return value;
+    double common = -1, kinetic = -1;
+    assert_true(metric_common_motion(cloud, h, stride, &common, &kinetic));
+    return kinetic > 0 ? common / kinetic : 1;
 }
 
 /* A current, a gas, and both, against all pairs. */
@@ -268,7 +267,7 @@ static void close_particles_are_those_of_all_pairs(void **state)
         }
     assert_true(metric_close(&cloud, limit, 7, &close));
     assert_int_equal(close, some);
-    cloud.position = other; /* all at one place */
+    cloud.position = other; /* all at a place */
     assert_true(metric_close(&cloud, limit, 1, &close));
     assert_int_equal(close, N);
     cloud.count = 1;
@@ -276,7 +275,7 @@ static void close_particles_are_those_of_all_pairs(void **state)
     assert_int_equal(close, 0);
 }
 
-/* A tank whose step is far too long ends, and its trouble is there to be read. */
+/* A tank with a far too long step ends with a readable trouble. */
 static void a_world_that_ends_says_of_what(void **state)
 {
     (void)state;
@@ -302,7 +301,7 @@ static void a_world_that_ends_says_of_what(void **state)
     assert_true(outcome.time > 0 && strstr(error.message, outcome.words));
 }
 
-/* ---- the watch over a run: what it sees of a calm world is made up by the def that it is given ---- */
+/* ---- the watch over a run: findings for a calm world are set by the def ---- */
 
 static World *world;
 static WorldDef calm_def;
@@ -348,7 +347,7 @@ static WorldDef leaking_def(void)
     return def;
 }
 
-/* All lattice neighbours are near one another. */
+/* All lattice neighbours are close together. */
 static WorldDef clumped_def(void)
 {
     WorldDef def = calm_def;
@@ -392,7 +391,7 @@ static void what_is_faster_than_sound_is_told(void **state)
     assert_true(fluid_watch_outcome(&watch, &info.trouble, &outcome) && outcome.kind == OUTCOME_FAST);
 }
 
-/* What it begins with hides nothing that comes later. */
+/* Troubles at the start do not hide later troubles. */
 static void each_kind_is_told_once(void **state)
 {
     (void)state;
@@ -408,8 +407,8 @@ static void each_kind_is_told_once(void **state)
     assert_false(look_now(&clumped) || look_now(&calm_def));
 }
 
-/* Against the least of the whole run, however slowly it grows; of a run that others act on nothing is known.
- */
+/* Compared with the minimum of the whole run, however slow the growth; unknown for runs without outside
+   action. */
 static void energy_is_followed_where_nothing_else_acts(void **state)
 {
     (void)state;
@@ -436,7 +435,7 @@ static void energy_is_followed_where_nothing_else_acts(void **state)
     assert_true(isnan(watch.start.energy));
 }
 
-/* Of a scene's start it is normal; of a run that goes on it is not. */
+/* Normal at a scene's start, but not in a resumed run. */
 static void what_starts_close_is_no_clump(void **state)
 {
     (void)state;

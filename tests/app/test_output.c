@@ -1,7 +1,7 @@
 /* Files that appear whole or not at all. */
 #include "tests/app/output_fixture.h"
 
-#include "app/base/output.h"
+#include "app/base/file.h"
 #include "app/base/program.h"
 
 #include <signal.h>
@@ -18,7 +18,7 @@ static void a_new_file_appears_at_the_commit(void **state)
     assert_true(output_commit(&output, &error));
     assert_text("new.txt", "whole");
     assert_int_equal(count_files("."), 1);
-    output_discard(&output); /* does nothing any more */
+    output_discard(&output); /* no effect any more */
     assert_true(exists("new.txt"));
 }
 
@@ -40,7 +40,7 @@ static void an_old_file_stays_until_then(void **state)
     assert_int_equal(count_files("."), 1);
 }
 
-/* A number that no process has: that of a child that has ended. */
+/* An unused process number: of a finished child. */
 static long dead(void)
 {
     const pid_t child = fork();
@@ -134,7 +134,7 @@ static void a_check_leaves_nothing(void **state)
 
 /* ---- folders ---- */
 
-/* `path` with one file in it, through the temporary folder. */
+/* `path` with a single file inside, through the temporary folder. */
 static void make_folder(const char *path, const char *file, const char *text)
 {
     OutputFolder folder = {.path = ""};
@@ -146,7 +146,7 @@ static void make_folder(const char *path, const char *file, const char *text)
     write_text(name, text);
     if (!output_folder_commit(&folder, &error))
         fail_msg("%s", error.message);
-    output_folder_discard(&folder); /* does nothing any more */
+    output_folder_discard(&folder); /* no effect any more */
 }
 
 static void a_folder_replaces_an_older_one_whole(void **state)
@@ -157,7 +157,7 @@ static void a_folder_replaces_an_older_one_whole(void **state)
     make_folder("a", "a-0001.txt", "second");
     assert_text("a/a-0001.txt", "second");
     assert_int_equal(count_files("a"), 1);
-    mkdir("b", 0777); /* an empty one */
+    mkdir("b", 0777); /* an empty file */
     make_folder("b", "b-0.txt", "third");
     assert_text("b/b-0.txt", "third");
     assert_int_equal(count_files("."), 2);
@@ -189,7 +189,7 @@ static void assert_folder_refused(const char *path, const char *reason)
     assert_string_equal(folder.temp, "");
 }
 
-/* Nothing that someone else put there is lost, also when it came late. */
+/* Files of a different program are never lost, even if created late. */
 static void a_folder_of_others_is_refused(void **state)
 {
     (void)state;

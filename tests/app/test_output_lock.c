@@ -2,7 +2,7 @@
 /* One writer a file, whatever the names and whatever the file system can. */
 #include "tests/app/output_fixture.h"
 
-#include "app/base/output.h"
+#include "app/base/file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -42,8 +42,8 @@ static void assert_busy(const char *path)
     assert_int_equal(lock.state, OUTPUT_UNLOCKED);
 }
 
-/* Both began before there was a file. Two programs have temporary names of their own, this one program has
-   not: the other one begins with another name. */
+/* Both writers began before the file existed. Two programs have separate temporary names, but this
+   program does not: the second writer begins with a different name. */
 static void the_second_to_commit_is_refused(void **state)
 {
     (void)state;

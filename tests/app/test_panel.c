@@ -1,11 +1,9 @@
-/* The panel: every live key can be set in it, what it asks for is accepted, nothing is cut off at any scale.
- */
+/* The panel: every live key can be set, every request is accepted, and no text is cut off at any scale. */
 #include "tests/render/toy_view.h"
 #include "tests/render/ui_fixture.h"
 #include "tests/sim/toy_method.h"
 
-#include "app/input/play_commands.h"
-#include "app/scene/keys.h"
+#include "app/input/actions.h"
 #include "app/scene/scene.h"
 #include "app/scene/scene_private.h"
 #include "app/window/panel/panel.h"
@@ -32,21 +30,21 @@ typedef struct Session {
     ProbeSample probes[HISTORY];
     bool help, watches, watches_probes;
     int settings, refused; /* in all */
-    char last[PANEL_SETTING_SIZE];
-    PlayCommand command; /* the last one */
+    char last[SETTING_TEXT_SIZE];
+    const UserAction *action; /* the last */
     GLuint none_passed;
     BoxControlDevice devices[3];
-    int tuned; /* the last one */
+    int tuned; /* the last */
     double gain, dead_zone;
     size_t opened;    /* scenes */
-    double particles; /* the last ones */
+    double particles; /* the last */
     char restart[64];
 } Session;
 
 static void take(Session *session, const PanelEvents *events)
 {
-    if (events->command != PLAY_NONE)
-        session->command = events->command;
+    if (events->action)
+        session->action = events->action;
     if (events->tuned) {
         session->tuned = events->tuned;
         session->gain = events->gain;
@@ -56,11 +54,17 @@ static void take(Session *session, const PanelEvents *events)
         session->particles = events->particles;
     if (*events->restart)
         memcpy(session->restart, events->restart, sizeof session->restart);
-    for (int i = 0; i < events->setting_count; i++) {
-        Error error = {{0}};
+    if (*events->term) {
         session->settings++;
-        snprintf(session->last, sizeof session->last, "%s", events->settings[i]);
-        if (!scene_set_live(&session->scene, events->settings[i], NULL, &error)) {
+        snprintf(session->last, sizeof session->last, "%s", events->term);
+        assert_true(scene_set_live(&session->scene, events->term, NULL, NULL));
+    }
+    for (int i = 0; i < events->value_count; i++) {
+        Error error = {{0}};
+        SettingBefore before;
+        session->settings++;
+        setting_value_text(&events->values[i], session->last);
+        if (!scene_set_value(&session->scene, &events->values[i], &before, NULL, &error)) {
             print_error("%s\n", error.message);
             session->refused++;
         }
@@ -73,7 +77,7 @@ static void draw_panel(void *user, Desk *desk)
     PanelEvents events;
     session->data.opened = session->opened;
     panel_draw(session->panel, desk->ui, desk->target.width, desk->target.height, &session->data, &events);
-    session->data.shut = events.gated ? events.shut : session->data.shut;
+    session->data.closed_gates = events.gated ? events.closed_gates : session->data.closed_gates;
     session->watches = events.watches;
     session->watches_probes = events.watches_probes;
     take(session, &events);
@@ -143,8 +147,8 @@ static void fill(Session *session)
     }
 }
 
-/* Thousands of frames of which nobody looks at one: draws are left out, since no sample has passed before
-   them. The widgets work as ever. session_close ends it. */
+/* Thousands of frames without a look: draws are skipped, since no sample has passed. The widgets work as
+   ever. session_close ends the mode. */
 static void stop_drawing(Session *session)
 {
     glGenQueries(1, &session->none_passed);
@@ -158,7 +162,7 @@ static Desk *session_open(Session *session, const char *scene, int width, int he
     Desk *desk = calloc(1, sizeof *desk);
     assert_non_null(desk);
     desk_open(desk, width, height, pixels);
-    *session = (Session){.panel = panel_create(), .command = PLAY_NONE};
+    *session = (Session){.panel = panel_create()};
     assert_non_null(session->panel);
     load(session, scene);
     fill(session);
@@ -201,7 +205,7 @@ static bool has_widget(const Key *key)
     return true;
 }
 
-/* "fluids[].color" of the second fluid; other paths as they are. */
+/* "fluids[].color" of the second fluid; different paths unchanged. */
 static void in_second_fluid(const char *path, char out[64])
 {
     const char *list = strstr(path, "[]");
@@ -221,7 +225,7 @@ static void set_ranges(Scene *scene)
     }
 }
 
-/* The panel has the keys of the shown view alone: a key of another one needs that view. */
+/* The panel shows keys of the current view only: a key of a different view needs a change of view. */
 static void show_view_of(Session *session, Desk *desk, const char *path)
 {
     for (int i = 0; view_at(i); i++) {
@@ -288,7 +292,7 @@ static void test_every_live_key_has_a_widget(void **state)
         char path[64];
         in_second_fluid(keys[i].path, path);
         const bool expected = keys[i].flags & KEY_LIVE && has_widget(&keys[i]);
-        /* "box" is also what "view.box" is called, "solids" what a stage is */
+        /* "box" is also a name for "view.box", "solids" also a stage */
         if (keys[i].type == KEY_MAPPING || keys[i].type == KEY_LIST)
             continue;
         show_view_of(&session, desk, path);
@@ -300,7 +304,7 @@ static void test_every_live_key_has_a_widget(void **state)
     session_close(&session, desk);
 }
 
-/* What a click on the widget leads to: the value itself, or a list or picker that opens below. */
+/* Result of a click on the widget: the value, or an opened list or picker. */
 static void click_for_change(Desk *desk, const Key *key, const char *path, float share)
 {
     desk_click_at(desk, path, share);
@@ -313,7 +317,7 @@ static void click_for_change(Desk *desk, const Key *key, const char *path, float
     if (key->type == KEY_COLOR)
         desk_click(desk, middle + 60, seen->rect[3] + 60);
     if (key->type == KEY_CHOICE || key->type == KEY_COLOR)
-        desk_click(desk, 395, TALL - 5); /* closes it */
+        desk_click(desk, 395, TALL - 5); /* closes the list */
 }
 
 static void test_what_it_asks_for_is_accepted(void **state)
@@ -336,7 +340,7 @@ static void test_what_it_asks_for_is_accepted(void **state)
         for (int k = 0; k < 4; k++)
             click_for_change(desk, &keys[i], path, shares[k]);
         if (session.settings == before && key_choice(&keys[i], 0) && !key_choice(&keys[i], 2))
-            continue; /* a list of one or two, of which the other may be chosen already */
+            continue; /* a list with at most two entries, the second maybe already chosen */
         if (session.settings == before || strncmp(session.last, path, strlen(path)) != 0)
             fail_msg("%s: asks for nothing, or for %s", path, session.last);
     }
@@ -441,28 +445,28 @@ static void test_sliders_follow_another_scene(void **state)
     session_close(&session, desk);
 }
 
-static void test_buttons_are_the_commands(void **state)
+static void test_buttons_are_the_actions(void **state)
 {
     (void)state;
     Session session;
     int buttons = 0;
     Desk *desk = session_open(&session, "box_slosh", 1280, 720, 13);
-    for (const PlayCommandRow *row = play_command_rows; row->name; row++) {
-        const bool button = row->flags & PLAY_BUTTON;
-        if ((desk_find(desk, row->name) != NULL) != button)
-            fail_msg("command %s: %s", row->name, button ? "no button" : "a button");
+    for (const UserAction *const *at = user_actions; *at; at++) {
+        const bool button = (*at)->flags & ACTION_BUTTON;
+        if ((desk_find(desk, (*at)->name) != NULL) != button)
+            fail_msg("action %s: %s", (*at)->name, button ? "no button" : "a button");
         if (!button)
             continue;
-        session.command = PLAY_NONE;
-        desk_click_at(desk, row->name, 0.5F);
-        assert_int_equal(session.command, row->command);
+        session.action = NULL;
+        desk_click_at(desk, (*at)->name, 0.5F);
+        assert_ptr_equal(session.action, *at);
         buttons++;
     }
     assert_true(buttons > 8);
     session_close(&session, desk);
 }
 
-/* One of each kind, and one that may not be opened. */
+/* A row of each kind, and a row that cannot be opened. */
 static void add_devices(Session *session)
 {
     static const char *const names[] = {"SpaceMouse Pro Wireless (Bluetooth)", "DualSense Edge",
@@ -552,7 +556,7 @@ static void test_stages_as_they_are_known(void **state)
     session_close(&session, desk);
 }
 
-/* Numbers with units, ranges, what binds; under the mouse those of then. */
+/* Numbers with units, ranges and limits; past values under the mouse. */
 static void test_gauges_are_plotted(void **state)
 {
     (void)state;
@@ -589,12 +593,12 @@ static void test_gauges_are_plotted(void **state)
     desk_frames(desk, 30);
     assert_non_null(desk_find(desk, "no values yet"));
     desk_click_at(desk, "Accuracy", 0.3F);
-    assert_false(session.watches); /* nobody looks: nothing is measured */
+    assert_false(session.watches); /* unwatched: not measured */
     assert_null(desk_find(desk, "energy"));
     session_close(&session, desk);
 }
 
-/* A plot a probe, with its name, its values in their units, or that it is dry; a scene without has none. */
+/* A plot per probe, with name and values with units, or "dry"; no plot for a scene without probes. */
 static void test_probes_are_plotted(void **state)
 {
     (void)state;
@@ -678,14 +682,14 @@ static void test_nothing_is_cut_in_a_narrow_panel(void **state)
     }
 }
 
-/* A live one is switched off and on to its own value; of another it is said what it takes. */
+/* A live switch is switched off and on to the same value; a different key shows a hint. */
 static void test_terms_have_switches(void **state)
 {
     (void)state;
     Session session;
     Desk *desk = session_open(&session, "two_oils", 700, TALL, 13);
     panel_destroy(session.panel);
-    session.panel = panel_create(); /* another start */
+    session.panel = panel_create(); /* a new start */
     session.scene.world.wall_slip = SLIP_NONE;
     desk_frames(desk, 30);
     assert_null(desk_find(desk, "term fluids[1].viscosity")); /* closed */
@@ -727,7 +731,7 @@ static void test_gates_have_switches(void **state)
     for (uint64_t shut = 1; shut <= 1; shut--) {
         desk_click_at(desk, "fluids[0].emit[0]", 0.5F);
         desk_frames(desk, 30);
-        assert_true(session.data.shut == shut);
+        assert_true(session.data.closed_gates == shut);
     }
     assert_nothing_is_cut(desk);
     session_close(&session, desk);
@@ -782,12 +786,12 @@ static void test_help_lists_every_row(void **state)
     session.help = true;
     desk->input.changed = true;
     desk_frames(desk, 30);
-    for (const PlayCommandRow *row = play_command_rows; row->name; row++) {
+    for (const UserAction *const *at = user_actions; *at; at++) {
         char keys[80];
-        play_command_keys_text(row, keys, sizeof keys);
-        assert_non_null(desk_find(desk, row->help));
+        user_action_keys(*at, keys, sizeof keys);
+        assert_non_null(desk_find(desk, (*at)->help));
         assert_non_null(desk_find(desk, keys));
-        assert_true(!row->example || desk_find(desk, row->example));
+        assert_true(!(*at)->example || desk_find(desk, (*at)->example));
     }
     assert_nothing_is_cut(desk);
     assert_true(ui_covers(desk->ui, 320, 180) && ui_covers(desk->ui, 600, 340));
@@ -807,7 +811,7 @@ int main(void)
         cmocka_unit_test_teardown(test_one_click_one_value, no_gl_errors),
         cmocka_unit_test_teardown(test_curves_are_drawn_by_hand, no_gl_errors),
         cmocka_unit_test_teardown(test_sliders_follow_another_scene, no_gl_errors),
-        cmocka_unit_test_teardown(test_buttons_are_the_commands, no_gl_errors),
+        cmocka_unit_test_teardown(test_buttons_are_the_actions, no_gl_errors),
         cmocka_unit_test_teardown(test_motion_devices, no_gl_errors),
         cmocka_unit_test_teardown(test_the_scene_begins_anew, no_gl_errors),
         cmocka_unit_test_teardown(test_stages_as_they_are_known, no_gl_errors),

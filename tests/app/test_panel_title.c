@@ -33,7 +33,7 @@ static void says_what_differs_and_its_name_does_not_say(void **state)
     PanelFacts facts[] = {facts_of("", "", &one), facts_of("method b", "solver.method=b", &two)};
     assert_title(facts, 2, 0, "own", "method a, steps of 2 ms");
     assert_title(facts, 2, 1, "method b", "steps of 1 ms");
-    facts[1].said = "particles.spacing=0.02\nsolver.methods=b"; /* another key */
+    facts[1].said = "particles.spacing=0.02\nsolver.methods=b"; /* a different key */
     facts[1].spacing = 0.02;
     assert_title(facts, 2, 1, "method b", "spacing 20 mm, method b, steps of 1 ms");
     facts[1] = facts_of("the same", "", &one);

@@ -1,12 +1,11 @@
-/* From events to what is asked of the window, without one: the order, what only moves the box, what is held.
- */
+/* From events to window actions, without a window: order, box-only moves, held keys. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 
 #include <cmocka.h>
 
-#include "app/window/input.h"
+#include "app/window/window.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -16,7 +15,7 @@
 
 enum { HEIGHT = 400 };
 
-static ActionQueue asks;
+static RequestQueue asks;
 static PlayInput input;
 
 static int begin(void **state)
@@ -58,21 +57,21 @@ static WindowEvent move(double x, double y)
     return (WindowEvent){.kind = WINDOW_MOVE, .x = x, .y = y, .when_ms = 8};
 }
 
-static Action next(ActionKind kind)
+static Request next(RequestKind kind)
 {
-    Action ask;
-    assert_true(action_next(&asks, &ask));
+    Request ask;
+    assert_true(request_next(&asks, &ask));
     assert_int_equal(ask.kind, kind);
     return ask;
 }
 
 static void no_more(void)
 {
-    Action ask;
-    assert_false(action_next(&asks, &ask));
+    Request ask;
+    assert_false(request_next(&asks, &ask));
 }
 
-/* A file that is dropped between two keys only waits, and is opened between what they ask for. */
+/* A file dropped between two keys waits, and is opened between the two actions. */
 static void what_is_asked_waits_in_its_order(void **state)
 {
     (void)state;
@@ -84,10 +83,10 @@ static void what_is_asked_waits_in_its_order(void **state)
     take(key(GLFW_KEY_C, false));
     take((WindowEvent){.kind = WINDOW_CLOSE});
     assert_int_equal(asks.count, 4);
-    assert_int_equal(next(ACTION_COMMAND).command, PLAY_NEXT_SCALAR);
-    assert_string_equal(next(ACTION_OPEN_SCENE).text, "dropped.yaml");
-    assert_int_equal(next(ACTION_COMMAND).command, PLAY_NEXT_COLORMAP);
-    next(ACTION_CLOSE_WINDOW);
+    assert_ptr_equal(next(REQUEST_ACTION).action, &action_next_scalar);
+    assert_string_equal(next(REQUEST_OPEN_SCENE).text, "dropped.yaml");
+    assert_ptr_equal(next(REQUEST_ACTION).action, &action_next_colormap);
+    next(REQUEST_CLOSE_WINDOW);
     no_more();
 }
 
@@ -99,10 +98,11 @@ static void camera_moves_add_up_until_another_comes(void **state)
     take(move(120, 60));
     take(key(GLFW_KEY_C, true));
     take(move(140, 60));
-    next(ACTION_GRAB_CAMERA);
-    const Action first = next(ACTION_TURN_CAMERA);
-    next(ACTION_COMMAND);
-    const Action second = next(ACTION_TURN_CAMERA);
+    next(REQUEST_GRAB_CAMERA);
+    const Request first = next(REQUEST_ACTION);
+    assert_ptr_equal(next(REQUEST_ACTION).action, &action_next_colormap);
+    const Request second = next(REQUEST_ACTION);
+    assert_true(first.action == &action_orbit && second.action == &action_orbit);
     assert_true(first.amount[0] > 0 && first.amount[0] == second.amount[0]);
     assert_true(first.amount[1] == 2 * second.amount[0] && second.amount[1] == 0);
     no_more();
@@ -112,17 +112,17 @@ static void a_full_queue_keeps_what_it_has_and_counts_the_rest(void **state)
 {
     (void)state;
     for (int round = 0; round < 3; round++) { /* round the ring */
-        for (int i = 0; i < ACTIONS_MAX + 5; i++)
-            action_add_command(&asks, i == 0 ? PLAY_PAUSE : PLAY_STEP);
-        assert_int_equal(asks.count, ACTIONS_MAX);
-        assert_int_equal(actions_lost(&asks), 5);
-        assert_int_equal(actions_lost(&asks), 0); /* it is said once */
-        assert_int_equal(next(ACTION_COMMAND).command, PLAY_PAUSE);
-        for (int i = 1; i < ACTIONS_MAX; i++)
-            assert_int_equal(next(ACTION_COMMAND).command, PLAY_STEP);
+        for (int i = 0; i < REQUESTS_MAX + 5; i++)
+            request_add_action(&asks, i == 0 ? &action_pause : &action_step);
+        assert_int_equal(asks.count, REQUESTS_MAX);
+        assert_int_equal(requests_lost(&asks), 5);
+        assert_int_equal(requests_lost(&asks), 0); /* a single message */
+        assert_ptr_equal(next(REQUEST_ACTION).action, &action_pause);
+        for (int i = 1; i < REQUESTS_MAX; i++)
+            assert_ptr_equal(next(REQUEST_ACTION).action, &action_step);
         no_more();
-        action_add_command(&asks, PLAY_STEP);
-        next(ACTION_COMMAND);
+        request_add_action(&asks, &action_step);
+        next(REQUEST_ACTION);
     }
 }
 
@@ -131,7 +131,7 @@ static bool only_holds(WindowEvent event)
     return input_only_holds(&input, &event);
 }
 
-/* What may be taken in the middle of a picture asks for nothing. */
+/* Events allowed in the middle of a picture cause no action. */
 static void what_only_holds_asks_for_nothing(void **state)
 {
     (void)state;
@@ -152,7 +152,7 @@ static void what_only_holds_asks_for_nothing(void **state)
     assert_false(only_holds(move(3, 3)));
 }
 
-/* One that does not leave its place asks for a trail, one that does grabs the camera. */
+/* A click without movement requests a trail, a drag grabs the camera. */
 static void a_right_click_is_no_drag(void **state)
 {
     (void)state;
@@ -162,12 +162,12 @@ static void a_right_click_is_no_drag(void **state)
         no_more();
         if (drag) {
             take(move(110, 100));
-            next(ACTION_GRAB_CAMERA);
-            next(ACTION_PAN_CAMERA);
+            next(REQUEST_GRAB_CAMERA);
+            assert_ptr_equal(next(REQUEST_ACTION).action, &action_pan);
         }
         take(button(GLFW_MOUSE_BUTTON_RIGHT, 0, false));
         if (!drag)
-            assert_int_equal(next(ACTION_COMMAND).command, PLAY_TRAIL);
+            assert_ptr_equal(next(REQUEST_ACTION).action, &action_trail);
         no_more();
     }
 }
@@ -185,7 +185,7 @@ static void what_is_held_moves_the_box(void **state)
     assert_true(input_fill_hand(&input, &pad, 0.5, &hand, &asks) == 8);
     assert_true(hand.move_drag[0] == 15 && hand.move_drag[1] == 10);
     assert_true(hand.move_rate[0] == 1 && hand.move_offset[0] > 0.9);
-    assert_int_equal(next(ACTION_COMMAND).command, PLAY_BOX_HOME);
+    assert_ptr_equal(next(REQUEST_ACTION).action, &action_box_home);
     hand = (HandInput){.dt = 0};
     assert_true(input_fill_hand(&input, &pad, 0.5, &hand, &asks) == 0);
     assert_true(hand.move_drag[0] == 0 && hand.move_rate[0] == 1);
@@ -203,18 +203,18 @@ static void a_trigger_touches(void **state)
     assert_false(input_touches(&input)); /* not while the mouse turns the camera */
     input.touching = true;
     input_press(&input, 0.51);
-    assert_true(input.drag == PLAY_TOUCH_DRAG && input.pressed == 0.5);
+    assert_true(input.drag == &action_stir && input.pressed == 0.5);
     input_press(&input, -1);
-    assert_true(input.drag == PLAY_TOUCH_OTHER && input.pressed == 1);
+    assert_true(input.drag == &action_pull && input.pressed == 1);
     input_fill_hand(&input, &pad, 0.5, &hand, &asks);
     assert_true(hand.tilt_offset[0] == 0);
     input_press(&input, 0);
-    assert_int_equal(input.drag, PLAY_NONE);
+    assert_null(input.drag);
     take(button(GLFW_MOUSE_BUTTON_LEFT, 0, true));
     input_press(&input, -1);
-    assert_true(input.drag == PLAY_TOUCH_DRAG && input.pressed == 1);
+    assert_true(input.drag == &action_stir && input.pressed == 1);
     input_press(&input, 0);
-    assert_int_equal(input.drag, PLAY_TOUCH_DRAG);
+    assert_ptr_equal(input.drag, &action_stir);
     take(button(GLFW_MOUSE_BUTTON_LEFT, 0, false));
     input.touching = false;
     input_fill_hand(&input, &pad, 0.5, &hand, &asks);
@@ -226,24 +226,24 @@ static void a_lost_focus_lets_go_once(void **state)
     (void)state;
     const WindowEvent lost = {.kind = WINDOW_FOCUS};
     take(lost);
-    no_more(); /* nothing was held */
+    no_more(); /* no key was held */
     take(key(GLFW_KEY_UP, true));
     take(lost);
     take(lost);
-    next(ACTION_STOP_BOX);
+    next(REQUEST_STOP_BOX);
     no_more();
     assert_false(input_busy(&input));
 }
 
-/* Commands that repeat say so: a step that is held down counts when none waits. */
+/* Repeating commands are marked: a held step key counts only if no step is waiting. */
 static void a_held_key_says_so(void **state)
 {
     (void)state;
     take(key(GLFW_KEY_PERIOD, true));
     take(held_key(GLFW_KEY_PERIOD));
     take(held_key(GLFW_KEY_R));
-    assert_false(next(ACTION_COMMAND).held);
-    assert_true(next(ACTION_COMMAND).held);
+    assert_false(next(REQUEST_ACTION).held);
+    assert_true(next(REQUEST_ACTION).held);
     no_more();
 }
 

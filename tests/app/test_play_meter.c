@@ -1,7 +1,6 @@
-/* What the window measures of itself, against what was put in; and the script that shakes the box. */
-#include "tests/near.h"
+/* The window's own measurements against known inputs; and the script that shakes the box. */
+#include "tests/tolerance.h"
 
-#include "app/window/frame_times.h"
 #include "app/window/window.h"
 
 #include <math.h>
@@ -45,7 +44,8 @@ static void pauses_are_left_out(void **state)
     assert_true(fabs(meter.pictures_per_second - 50) < 0.5);
 }
 
-/* An event is shown by the first picture whose state has obeyed its command, and by no other. */
+/* An event is shown by the first picture with a state that applied the command, and by no earlier
+   picture. */
 static void events_wait_for_their_picture(void **state)
 {
     (void)state;
@@ -94,7 +94,7 @@ static void the_process_has_an_age(void **state)
     assert_true(process_age_ms() >= age);
 }
 
-/* 125 events a second, with the times at which they were due; a drag with Shift, within the picture. */
+/* 125 events a second with due times; a drag with Shift, within the picture. */
 static void the_script_keeps_its_times(void **state)
 {
     (void)state;

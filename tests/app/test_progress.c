@@ -52,7 +52,7 @@ static void quiet_says_nothing(void **state)
     assert_string_equal(text, "");
 }
 
-/* All that arrives at the terminal's other side until it is silent for a while. */
+/* All output at the terminal's far end until a pause. */
 static void read_terminal(int master, char text[1 << 16])
 {
     size_t length = 0;

@@ -1,8 +1,8 @@
-/* Recordings: what is written comes back to the bit; what is wrong is named with its line. */
+/* Recordings: a round trip is exact to the bit; errors name the line. */
 #include "tests/app/output_fixture.h"
 
 #include "app/run/recording/recording.h"
-#include "app/scene/scene_files.h"
+#include "app/scene/scene.h"
 
 #include <errno.h>
 #include <float.h>
@@ -332,7 +332,7 @@ static void only_what_can_be_read_is_recorded(void **state)
     command.step = 2;
     assert_false(recording_add(&recording, &command));
     command = target_at(3, (double)NAN);
-    assert_true(recording_add(&recording, &command)); /* no world takes it */
+    assert_true(recording_add(&recording, &command)); /* refused by worlds */
     command = target_at(3, 0);
     command.target.orientation[3] = (double)INFINITY;
     assert_true(recording_add(&recording, &command));

@@ -1,4 +1,4 @@
-/* A session that was recorded comes out with the same bits when it is simulated again. */
+/* A recorded session gives the same bits in a second simulation. */
 #include "tests/app/output_fixture.h"
 
 #include "app/run/session.h"
@@ -115,9 +115,9 @@ static bool play(const Recording *recording, const SceneSettings *more, uint64_t
            !recording_play_ended(&play, &session))
         ok = session_substep(&session, &error);
     if (ok) {
-        *hash = world_hash(session.world);
-        *threads = session.info.threads;
-        assert_true(session.info.step == recording->steps);
+        *hash = world_hash(session.run.world);
+        *threads = session.run.info.threads;
+        assert_true(session.run.info.step == recording->steps);
     }
     session_close(&session);
     return ok;
@@ -141,7 +141,7 @@ static void the_same_bits_come_out(void **state)
     recording_destroy(&recording);
 }
 
-/* Each command counts, but for those that no solver reads. */
+/* Each command counts, except commands ignored by solvers. */
 static void other_commands_give_other_bits(void **state)
 {
     (void)state;

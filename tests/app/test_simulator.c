@@ -5,7 +5,7 @@
 #include "app/run/offscreen.h"
 #include "app/run/session.h"
 #include "app/run/simulator.h"
-#include "sim/start/seed.h"
+#include "sim/start/start.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -87,7 +87,7 @@ static bool has_shown_all(const Rig *rig)
     return is_ready(rig) && rig->particles.step == rig->status.step;
 }
 
-/* Nothing is being done, and nothing left to do. */
+/* Idle, without pending work. */
 static bool rests(const Rig *rig)
 {
     return has_shown_all(rig) && rig->status.rests;
@@ -179,9 +179,9 @@ static double passed_in(Rig *rig, double seconds)
     return 1e-3 * (wall_ms() - began);
 }
 
-/* In real time never before the clock, times the speed, but for the tenth of a second that may be caught up
-   with and the frame in hand, however busy the machine is. At the least speed the next frame is due in a
-   minute: those that come are not of real time. */
+/* In real time, time stays behind the clock times the speed. Exceptions: the tenth of a second for
+   catching up, and the current frame, however busy the machine is. At the least speed the next frame is
+   due in a minute: earlier frames are not of real time. */
 static void time_follows_the_clock(void **state)
 {
     (void)state;
@@ -213,7 +213,7 @@ static uint64_t send_target(Rig *rig, double x)
                           &(SimCommand){.kind = SIM_TARGET, .target = {{x, 0, 0}, {0, 0, 0, 1}}});
 }
 
-/* Commands have numbers, and a state tells which it has obeyed. */
+/* Commands have numbers, and a state names the last applied command. */
 static void states_tell_what_they_obey(void **state)
 {
     (void)state;
@@ -233,17 +233,20 @@ static void states_tell_what_they_obey(void **state)
     rig_close(&rig);
 }
 
-/* While time stands still what is sent waits, however much it is. */
-static void what_waits_is_replaced(void **state)
+/* While time stands still all sent commands wait, without limit. `values`: settings as values; a recording
+   has their text. */
+static void check_what_waits(bool values)
 {
-    (void)state;
     Rig rig;
     uint64_t sent = 0;
     rig_open(&rig, NULL, true);
     wait_for(&rig, is_ready);
     for (int i = 0; i <= 1000; i++) {
-        SimCommand set = {.kind = SIM_SET};
-        snprintf(set.setting, sizeof set.setting, "gravity=[0, %d, 0]", -i);
+        SimCommand set = {.kind = values ? SIM_VALUE : SIM_SET};
+        if (values)
+            set.value = (SettingValue){.key = scene_key_find("gravity"), .number = {0, -i, 0}};
+        else
+            snprintf(set.setting, sizeof set.setting, "gravity=[0, %d, 0]", -i);
         assert_int_equal(simulator_send(rig.simulator, &set), ++sent);
         assert_int_equal(send_target(&rig, 1e-3 * i), ++sent);
     }
@@ -263,7 +266,14 @@ static void what_waits_is_replaced(void **state)
     recording_destroy(&recording);
 }
 
-/* What waits for the box is of the old session; what was set stays set. */
+static void what_waits_is_replaced(void **state)
+{
+    (void)state;
+    check_what_waits(false);
+    check_what_waits(true);
+}
+
+/* Waiting box commands belong to the old session; settings stay. */
 static void a_reset_forgets_poses(void **state)
 {
     (void)state;
@@ -289,7 +299,7 @@ static void a_reset_forgets_poses(void **state)
     recording_destroy(&recording);
 }
 
-/* A save is of the session in which it was asked for, and is done even when all ends at once. */
+/* A save is of the session at the request, and completes even if all ends at once. */
 static void a_save_keeps_its_place(void **state)
 {
     (void)state;
@@ -300,7 +310,7 @@ static void a_save_keeps_its_place(void **state)
         wait_for(&rig, has_shown_all);
     while (rig.status.step < 20);
     assert_true(simulator_save(rig.simulator, "before.rec"));
-    assert_false(simulator_save(rig.simulator, "none.rec")); /* one at a time */
+    assert_false(simulator_save(rig.simulator, "none.rec")); /* in sequence */
     simulator_reset(rig.simulator);
     wait_for(&rig, has_saved);
     simulator_pause(rig.simulator, true);
@@ -316,7 +326,8 @@ static void a_save_keeps_its_place(void **state)
     assert_false(exists("none.rec"));
 }
 
-/* A session of random commands on a running simulation gives its bits again; a reset keeps what was set. */
+/* A session of random commands in a running simulation gives the same bits in a replay; a reset keeps
+   settings. */
 static void a_saved_session_gives_the_same_bits(void **state)
 {
     (void)state;
@@ -355,7 +366,7 @@ static void a_saved_session_gives_the_same_bits(void **state)
         must(session_substep(&session, &error));
     }
     assert_true(within_a_frame);
-    assert_true(world_hash(session.world) == recording.hash);
+    assert_true(world_hash(session.run.world) == recording.hash);
     session_close(&session);
     recording_destroy(&recording);
 }
@@ -373,7 +384,7 @@ static void saving_may_fail(void **state)
     rig_close(&rig);
 }
 
-/* A wrong setting is told and changes nothing; what blows up stops, and a reset begins anew. */
+/* A wrong setting is reported without effect; a blow-up stops, and a reset restarts. */
 static void trouble_is_told(void **state)
 {
     (void)state;
@@ -413,7 +424,7 @@ static bool is_held(const Rig *rig)
     return atomic_load(&held);
 }
 
-/* A step that takes longer than the patience: the thread is left, and ends behind it. */
+/* A step longer than the patience: the thread is abandoned, and ends later. */
 static void an_end_does_not_wait_for_ever(void **state)
 {
     (void)state;

@@ -1,12 +1,11 @@
-/* The solver on the window's own thread, its backend on the GPU; and from one backend to another. */
+/* The solver on the window's thread with a GPU backend; and changes of backend. */
 #include "tests/app/output_fixture.h"
 
 #include "app/run/compare/compare.h"
 #include "app/run/offscreen.h"
 #include "app/run/session.h"
 #include "app/run/simulator.h"
-#include "sim/gpu/gl_context.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -59,7 +58,7 @@ static void rig_close(Rig *rig)
     recording_destroy(&rig->recording);
 }
 
-/* Works until that step or, on a thread, waits for it. */
+/* Works until the step or, on a thread, waits for the step. */
 static void until_step(Rig *rig, uint64_t step)
 {
     const double until = wall_ms() + 20000;
@@ -79,19 +78,19 @@ static void it_works_when_asked(void **state)
     rig_open(&rig, true);
     simulator_status(rig.simulator, &rig.status);
     assert_true(rig.status.ready && simulator_on_gpu(rig.simulator) && simulator_fresh(rig.simulator));
-    assert_true(isinf(simulator_work(rig.simulator, 5))); /* paused: nothing is due */
+    assert_true(isinf(simulator_work(rig.simulator, 5))); /* paused: no step due */
     assert_true(simulator_share(rig.simulator, PARTICLE_SCALAR(SCALAR_SPEED), &particles));
     assert_true(particles.count == 400 && particles.position.buffer && particles.step == 0);
     assert_false(simulator_fresh(rig.simulator));
     simulator_single_step(rig.simulator, false);
-    simulator_single_step(rig.simulator, true); /* by itself, while one waits: it does not count */
+    simulator_single_step(rig.simulator, true); /* automatic, while waiting: not counted */
     until_step(&rig, 5);
     assert_true(isinf(simulator_work(rig.simulator, 5)) && simulator_fresh(rig.simulator));
     simulator_status(rig.simulator, &rig.status);
     assert_int_equal(rig.status.step, 5);
     simulator_pause(rig.simulator, false);
     until_step(&rig, 10);
-    const double wait = simulator_work(rig.simulator, 1000); /* in real time it has no more than that to do */
+    const double wait = simulator_work(rig.simulator, 1000); /* in real time there is no further work */
     assert_true(wait >= 0 && wait <= 10);
     rig_close(&rig);
 }
@@ -195,7 +194,7 @@ static void the_backend_changes_while_it_runs(void **state)
     must(recording_play_open(&play, NULL, HEADLESS_GPU_AUTO, false, &session, &error) == 0);
     while (recording_play_apply(&play, &session, &error) && !recording_play_ended(&play, &session))
         must(session_substep(&session, &error));
-    assert_true(world_hash(session.world) == recording.hash);
+    assert_true(world_hash(session.run.world) == recording.hash);
     session_close(&session);
     recording_destroy(&recording);
     context = headless_create(HEADLESS_GPU_AUTO, &error);
@@ -238,7 +237,8 @@ static void a_backend_that_is_none_changes_nothing(void **state)
     rig_close(&rig);
 }
 
-/* A backend that cannot do the scene: the user takes another one, and the session is recorded with it. */
+/* The backend cannot run the scene: the user takes a different backend, and the recording names that
+   backend. */
 static void a_failed_start_goes_on_elsewhere(void **state)
 {
     (void)state;
@@ -265,7 +265,7 @@ static void a_failed_start_goes_on_elsewhere(void **state)
     recording_destroy(&recording);
 }
 
-/* In a copy, from which they are read from now on. */
+/* Into a copy, the source of later reads. */
 static void break_shader(const char *name)
 {
     char command[512];
@@ -276,7 +276,7 @@ static void break_shader(const char *name)
     shader_source_set_directory("shaders");
 }
 
-/* Shaders that were broken while it runs: said, and the last good ones go on. */
+/* Broken shaders during a run: an error, and the last good shaders stay. */
 static void broken_shaders_leave_the_last_good_ones(void **state)
 {
     (void)state;
@@ -313,7 +313,7 @@ static void gauges_come_late(void **state)
     rig_close(&rig);
 }
 
-/* What follows on the GPU and cannot begin anew shows nothing, and not what was freed. */
+/* A follower on the GPU that cannot restart shows an empty picture, without freed memory. */
 static void what_follows_and_fails_is_empty(void **state)
 {
     (void)state;
@@ -347,7 +347,7 @@ static void what_follows_and_fails_is_empty(void **state)
     do {
         simulator_work(rig.simulator, 1);
         simulator_status(rig.simulator, &rig.status);
-    } while (rig.status.past.travelling);
+    } while (rig.status.timeline.travelling);
     assert_true(!simulator_fresh(rig.simulator) && !compare_has_new(compared));
     break_shader("sim/dfsph/force.comp");
     simulator_reset(rig.simulator);

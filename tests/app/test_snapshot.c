@@ -1,5 +1,6 @@
 /* Snapshot files: what is written is read, and only whole steps are. */
 #include "tests/app/output_fixture.h"
+#include "tests/lists.h"
 
 #include "app/files/snapshot.h"
 #include "sim/methods/mueller/mueller.h"
@@ -19,14 +20,13 @@ static Scene small_scene(void)
     for (int k = 0; k < 3; k++)
         def->box_size[k] = 1;
     def->fluid_count = 2;
-    def->fluids[0] = (FluidDef){.name = "water", .density = 1000, .color = {0, 1, 0.5F}, .fill_count = 1};
-    def->fluids[0].fills[0] = (Fill){.kind = FILL_BLOCK, .min = {-0.5, 0, -0.5}, .max = {0, 0.5, 0.5}};
-    def->fluids[1] = (FluidDef){.name = "oil", .density = 900, .fill_count = 1};
-    def->fluids[1].fills[0] = (Fill){.kind = FILL_BLOCK, .min = {0, 0, -0.5}, .max = {0.5, 0.5, 0.5}};
+    def->fluids[0] = (FluidDef){.name = "water", .density = 1000, .color = {0, 1, 0.5F}};
+    add_fill(&def->fluids[0], (Fill){.kind = FILL_BLOCK, .min = {-0.5, 0, -0.5}, .max = {0, 0.5, 0.5}});
+    def->fluids[1] = (FluidDef){.name = "oil", .density = 900};
+    add_fill(&def->fluids[1], (Fill){.kind = FILL_BLOCK, .min = {0, 0, -0.5}, .max = {0.5, 0.5, 0.5}});
     def->dt = 0.004;
     def->substeps = 2;
-    def->motion_count = 1;
-    def->motions[0] = (Motion){.kind = MOTION_ROCK, .axis = {0, 0, 1}, .angle_deg = 20, .frequency = 1};
+    add_motion(def, (Motion){.kind = MOTION_ROCK, .axis = {0, 0, 1}, .angle_deg = 20, .frequency = 1});
     return scene;
 }
 
@@ -84,7 +84,7 @@ static size_t whole_steps(const char *path)
     return steps;
 }
 
-/* Counts that change, none at all, and more than one chunk. */
+/* Changing counts, zero, and more than a single chunk. */
 static void what_is_written_is_read(void **state)
 {
     (void)state;
@@ -174,7 +174,7 @@ static void a_world_is_written_as_it_is(void **state)
     free(position), free(velocity), free(density), free(pressure), free(fluid), free(id);
 }
 
-/* By the densities in the file those that the views have: with sums by each kernel, and carried. */
+/* Densities in the file give the densities of the views: sums by each kernel, and carried densities. */
 static void volumes_are_those_of_the_solver(void **state)
 {
     (void)state;
@@ -244,7 +244,7 @@ static void colors_are_as_in_the_scene_file(void **state)
     snapshot_step_free(&step);
 }
 
-/* The file gets its name with its first whole step. */
+/* The file gets the final name with the first complete step. */
 static void an_old_file_stays_until_the_first_step(void **state)
 {
     (void)state;
@@ -306,8 +306,8 @@ static void a_killed_program_leaves_whole_steps(void **state)
     assert_int_equal(whole_steps("a.h5part"), 4);
 }
 
-/* In a child, since the limit can't be taken back: `bytes` is all that a file may have. Returns how many
-   steps of 1,000 particles it took. */
+/* In a child, since the limit is permanent: `bytes` is the maximum file size. Returns the number of
+   complete steps of 1,000 particles. */
 static int steps_within(rlim_t bytes, const char *path)
 {
     int status = 0;
@@ -345,7 +345,7 @@ static void a_full_disk_leaves_whole_steps_or_nothing(void **state)
     assert_int_equal(count_files("."), 1);
 }
 
-/* The room that a step asks for beforehand is enough for it. */
+/* The space reserved before a step is sufficient. */
 static void the_reserve_is_enough(void **state)
 {
     (void)state;

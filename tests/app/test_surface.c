@@ -1,6 +1,6 @@
 /* Surfaces of particles placed by hand: closed, of the fluid's volume, at the level, with the particles'
  * fields. */
-#include "app/files/surface.h"
+#include "app/files/export.h"
 #include "sim/kernel/kernel.h"
 #include "slosh/mesh.h"
 #include "tests/closed_mesh.h"
@@ -106,7 +106,8 @@ static void sum_density(SnapshotStep *step)
             double square = 0;
             for (int k = 0; k < 3; k++)
                 square += pow(step->position[k][i] - step->position[k][j], 2);
-            n += lattice.density_scale * kernel_spiky(sqrt(square), scene.support_radius);
+            n += lattice.density_scale *
+                 density_kernel_find("spiky")->value(sqrt(square), scene.support_radius);
         }
         step->density[i] = (float)(scene.density[step->fluid[i]] * n / lattice.number_density);
     }
@@ -147,7 +148,7 @@ static void no_fluid_has_no_surface(void **state)
     snapshot_step_free(&step);
 }
 
-/* F of a lone particle at rest density is 0.169 at its centre: over a third of that as far as this. */
+/* F of a lone particle at rest density is 0.169 at the centre: above a third of 0.169 up to this radius. */
 static void one_particle_is_a_ball_below_its_peak(void **state)
 {
     (void)state;
@@ -188,7 +189,7 @@ static void a_particle_of_little_density_is_large(void **state)
     for (int bad = 0; bad < 3; bad++) {
         step.density[0] = bad == 0 ? 0 : bad == 1 ? -5 : NAN;
         surface = make(&(SurfaceDef){.level = 0.5, .cell = 0.2}, &step);
-        assert_true(bad == 2 ? surface.triangle_count == 0 /* it is left out */
+        assert_true(bad == 2 ? surface.triangle_count == 0 /* left out */
                              : surface.volume > 1e-4 && surface.volume < 0.04 /* a ball of radius h */);
         surface_free(&surface);
     }
@@ -257,7 +258,7 @@ static void vertices_have_the_particles_fields(void **state)
     snapshot_step_free(&step);
 }
 
-/* A drop elsewhere moves no vertex: cells of all steps are those of one lattice. */
+/* A drop elsewhere moves no vertex: cells of all steps are on a common lattice. */
 static void a_fluid_at_rest_keeps_its_mesh(void **state)
 {
     (void)state;
@@ -333,7 +334,7 @@ static void what_does_not_fit_is_refused(void **state)
     snapshot_step_free(&step);
 }
 
-/* A ball of two fluids with a slanting border between them, which the lattice gives as steps of a spacing. */
+/* A ball of two fluids with a slanting border, on the lattice in steps of a spacing. */
 static SnapshotStep slanting_step(void)
 {
     SnapshotStep step = some_step(ball);

@@ -1,11 +1,11 @@
-/* A method that the program does not have (tests/sim/toy_method.h) in a file: a run goes on from it. */
+/* A run continues from a file with a method unknown to the program (tests/sim/toy_method.h). */
 #include "tests/app/output_fixture.h"
 
 #include "app/files/snapshot.h"
 #include "app/run/offscreen.h"
-#include "app/run/recording/sim_command.h"
-#include "app/scene/keys.h"
-#include "sim/gpu/gl_context.h"
+#include "app/run/recording/recording.h"
+#include "app/scene/scene.h"
+#include "sim/gpu/gl.h"
 #include "slosh/world.h"
 #include "tests/sim/toy_method.h"
 #include "tests/sim/toy_shaders.h"

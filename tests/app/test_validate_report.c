@@ -1,8 +1,8 @@
-/* What validate says of a figure that has no value: words in the table, null in the JSON. */
+/* validate for a figure without a value: words in the table, null in the JSON. */
 #include "tests/scratch.h"
 #include "tests/sim/fixture.h"
 
-#include "app/bench/validate.h"
+#include "app/bench/bench.h"
 
 #include <unistd.h>
 
@@ -116,7 +116,7 @@ static void a_figure_without_a_value_is_null(void **state)
     assert_null(strstr(text, "NaN"));
 }
 
-/* In the row, below it, and in the JSON; of a miss, its own words. */
+/* In the row, below the row, and in the JSON; a miss has separate words. */
 static void how_it_went_is_told(void **state)
 {
     (void)state;

@@ -86,7 +86,7 @@ static void odd_sizes_become_even(void **state)
     assert_string_equal(text, "h264,2,2,yuv420p,25/1,1");
 }
 
-/* The colours that went in come out, also in the column and row that an odd size adds. */
+/* Colours survive a round trip, also in the column and row added for odd sizes. */
 static void colours_survive(void **state)
 {
     (void)state;
@@ -142,7 +142,7 @@ static void missing_ffmpeg_is_said(void **state)
     assert_int_equal(count_files("."), 0);
 }
 
-/* A stand-in for ffmpeg that ends in a way of its own; the error of a long video. */
+/* A stand-in for ffmpeg with a chosen exit; the error of a long video. */
 static void fail_with(const char *script, Error *error)
 {
     char path[4096], old[4000];

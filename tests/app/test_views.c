@@ -3,7 +3,7 @@
 
 #include "app/lab/view_benchmark.h"
 
-#include "sim/base/color.h"
+#include "sim/base/base.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -72,7 +72,7 @@ static void errors_are_what_they_say(void **state)
     make(&b, bright, 1);
     assert_float_equal(picture_rms(&a, &b), 1, 1e-6);
     assert_true(picture_structure(&a, &b) > 0.99);
-    b.rgb[0] = 0.5F; /* one of them all that is not white */
+    b.rgb[0] = 0.5F; /* a picture: all non-white pixels */
     assert_float_equal(picture_rms(&a, &b), sqrt(1 - 0.75 / (3.0 * LARGE * LARGE)), 1e-6);
     linear_picture_free(&a);
     linear_picture_free(&b);
@@ -133,9 +133,9 @@ static void each_view_has_its_grades(void **state)
     plan_of("", &plan);
     for (int i = 0; view_at(i); i++)
         assert_non_null(job_named(&plan, view_at(i)->name, "as it is"));
-    assert_true(plan.jobs[0].reference);
+    assert_true(plan.reference_count > 4);
     assert_non_null(job_named(&plan, "volume", "step=1"));
-    assert_null(job_named(&plan, "volume", "step=0.5")); /* as it is */
+    assert_null(job_named(&plan, "volume", "step=0.5")); /* unchanged */
     assert_non_null(job_named(&plan, "volume", "method=slabs"));
     assert_null(job_named(&plan, "splat", "filter_iterations=4")); /* without a filter */
     const ViewJob *coarse = job_named(&plan, "volume", "all coarsest"),
@@ -146,7 +146,7 @@ static void each_view_has_its_grades(void **state)
         assert_null(strstr(fine->set[i], "method")); /* all of them give the same picture */
 }
 
-/* The ends of a view with one grade are runs of that grade. */
+/* The ends of a view with a single grade are runs of the grade. */
 static void no_picture_is_planned_twice(void **state)
 {
     (void)state;
@@ -160,20 +160,18 @@ static void no_picture_is_planned_twice(void **state)
     assert_non_null(job_named(&plan, "slice", "samples=1024"));
 }
 
-/* What the scene has finer than any grade, or of its own kind, is the reference's. */
+/* Scene settings finer than all grades, or of a different kind, are the reference's. */
 static void a_reference_is_no_coarser_than_the_scene(void **state)
 {
     (void)state;
     static ViewPlan plan;
     plan_of("view.volume.cells=300", &plan);
-    for (int i = 0; i < plan.count; i++)
-        if (plan.jobs[i].reference)
-            assert_false(sets(&plan.jobs[i], "--set view.volume.cells=192"));
+    for (int i = 0; i < plan.reference_count; i++)
+        assert_false(sets(&plan.references[i], "--set view.volume.cells=192"));
     assert_true(sets(job_named(&plan, "volume", "all coarsest"), "--set view.volume.cells=24"));
     plan_of("view.splat.shape=ellipsoid", &plan);
-    for (int i = 0; i < plan.count; i++)
-        if (plan.jobs[i].reference)
-            assert_false(sets(&plan.jobs[i], "--set view.splat.shape=perspective"));
+    for (int i = 0; i < plan.reference_count; i++)
+        assert_false(sets(&plan.references[i], "--set view.splat.shape=perspective"));
 }
 
 static void one_view_by_name(void **state)
@@ -186,7 +184,7 @@ static void one_view_by_name(void **state)
     assert_true(plan.count > 4);
 }
 
-/* Each grade's values are ones that its key takes: view_job_scene reads them. */
+/* Each grade's values are valid for the key: view_job_scene reads the values. */
 static void grades_can_be_set(void **state)
 {
     (void)state;
@@ -211,50 +209,51 @@ static ViewRow row_of(uint64_t key, const char *view, double ms, double off)
 static void rows_come_back(void **state)
 {
     (void)state;
-    static ViewRows rows, again;
+    Trials rows = {.table = &view_table}, again = {.table = &view_table};
     char path[SCRATCH_SIZE];
     Error error;
     const ViewRow a = row_of(7, "splat", 3.5, 0.25), b = row_of(9, "volume", 12, 0.125),
                   broken = row_of(10, "volume", (double)NAN, (double)NAN);
     scratch_file(path, "");
-    rows.count = again.count = 0;
-    view_rows_add(&rows, &a);
-    view_rows_add(&rows, &b);
-    view_rows_add(&rows, &broken);
-    view_rows_add(&rows, &a); /* in its own place */
+    assert_true(trials_add(&rows, &a, NULL));
+    assert_true(trials_add(&rows, &b, NULL));
+    assert_true(trials_add(&rows, &broken, NULL));
+    assert_true(trials_add(&rows, &a, NULL)); /* in place */
     assert_int_equal(rows.count, 3);
-    assert_true(view_rows_write(&rows, path, &error));
+    assert_true(trials_write(&rows, path, &error));
     FILE *file = fopen(path, "a");
     fputs("0000000000000001,splat,no numbers,finish,x,0,0\n", file);
     fclose(file);
-    assert_true(view_rows_read(&again, path, NULL, &error));
+    assert_true(trials_read(&again, path, NULL, &error));
     assert_int_equal(again.count, 2); /* what is not drawn is drawn again */
-    assert_memory_equal(view_rows_find(&again, 7), &a, sizeof a);
-    assert_memory_equal(view_rows_find(&again, 9), &b, sizeof b);
+    assert_memory_equal(trials_find(&again, 7), &a, sizeof a);
+    assert_memory_equal(trials_find(&again, 9), &b, sizeof b);
     file = fopen(path, "w");
     fputs("key,role,method,backend,step\n", file);
     fclose(file);
-    assert_false(view_rows_read(&again, path, NULL, &error));
+    assert_false(trials_read(&again, path, NULL, &error));
+    trials_free(&rows);
+    trials_free(&again);
 }
 
-/* Only one that is not there is empty: what cannot be read is not to be replaced. */
+/* Only a missing file counts as empty: an unreadable file must not be replaced. */
 static void an_unreadable_table_is_refused(void **state)
 {
     (void)state;
-    static ViewRows rows;
+    Trials rows = {.table = &view_table};
     char path[SCRATCH_SIZE];
     Error error;
     scratch_name(path, "");
-    assert_true(view_rows_read(&rows, path, NULL, &error));
+    assert_true(trials_read(&rows, path, NULL, &error));
     assert_int_equal(symlink(path, path), 0);
-    assert_false(view_rows_read(&rows, path, NULL, &error));
+    assert_false(trials_read(&rows, path, NULL, &error));
     assert_non_null(strstr(error.message, "cannot be read: Too many levels of symbolic links"));
 }
 
 static void the_front_is_each_views_own(void **state)
 {
     (void)state;
-    static ViewRows rows;
+    Trials rows = {.table = &view_table};
     const ViewRow all[] = {row_of(1, "splat", 3, 0.2),
                            row_of(2, "splat", 5, 0.1),
                            row_of(3, "splat", 6, 0.15),
@@ -263,11 +262,11 @@ static void the_front_is_each_views_own(void **state)
                            row_of(6, "splat", 10, 0.09),
                            row_of(7, "splat", (double)NAN, (double)NAN)};
     const bool front[] = {true, true, false, true, false /* hardly nearer */, true, false};
-    rows.count = 0;
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-        view_rows_add(&rows, &all[i]);
+        assert_true(trials_add(&rows, &all[i], NULL));
     for (int i = 0; i < rows.count; i++)
         assert_int_equal(view_on_front(&rows, i), front[i]);
+    trials_free(&rows);
 }
 
 int main(void)

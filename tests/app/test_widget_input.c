@@ -5,7 +5,7 @@
 
 #include <cmocka.h>
 
-#include "app/window/input.h"
+#include "app/window/window.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

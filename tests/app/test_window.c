@@ -1,4 +1,4 @@
-/* What of the window needs no display: which device a joystick of GLFW's is. */
+/* Window code without a display: the device behind a GLFW joystick. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

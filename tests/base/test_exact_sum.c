@@ -1,7 +1,7 @@
-/* Sums that do not depend on the order of what is added, nor on how it was shared out. */
-#include "tests/near.h"
+/* Sums independent of the order of terms and of the distribution over threads. */
+#include "tests/tolerance.h"
 
-#include "sim/base/sums.h"
+#include "sim/base/base.h"
 
 enum { COUNT = 4096, PARTS = 7 };
 

@@ -1,5 +1,5 @@
 /* Threads that compute take denormal numbers for 0, and leave the caller's arithmetic as it was. */
-#include "sim/base/parallel.h"
+#include "sim/base/base.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,8 +1,8 @@
-/* Bodies by themselves: what they weigh, how they fly, hang and hit. */
+/* Bodies alone: mass, flight, hinges, contacts. */
 #include "../mesh_models.h"
 #include "../sim/fixture.h"
 
-#include "sim/solids/body.h"
+#include "sim/solids/solid.h"
 
 #include <unistd.h>
 
@@ -41,7 +41,7 @@ static void mesh_weighs_what_its_box_does(void **state)
         const double expected = 3000.0 / 12 * (14 - size[k] * size[k]);
         double axis[3] = {k == 0, k == 1, k == 2}, off = INFINITY, own[4];
         near(of_box.inertia[k], expected, 1e-9, "a moment of the box");
-        quat_rotate(q, axis, axis); /* some principal axis of the mesh is this one, with this moment */
+        quat_rotate(q, axis, axis); /* a principal axis of the mesh has this direction and moment */
         memcpy(own, of_mesh.axes, sizeof own);
         for (int p = 0; p < 3; p++) {
             double other[3] = {p == 0, p == 1, p == 2};
@@ -54,7 +54,7 @@ static void mesh_weighs_what_its_box_does(void **state)
     triangles_free(&shape.triangles);
 }
 
-/* What the watch over energy asks of a body, beside the sum over points of its matter. */
+/* Body values for the energy watch, against the sum over points of the body's matter. */
 static void sums_are_those_of_its_matter(void **state)
 {
     (void)state;
@@ -86,7 +86,7 @@ static void sums_are_those_of_its_matter(void **state)
         near(one[k], other[k], 1e-3 * points.own, "a sum");
 }
 
-/* Textbook values of the others; a bowl of a thick wall beside its half ball without a hole. */
+/* Textbook values of further shapes; a thick-walled bowl against the half ball without a hole. */
 static void shapes_weigh_what_books_say(void **state)
 {
     (void)state;
@@ -107,8 +107,8 @@ static void shapes_weigh_what_books_say(void **state)
     near(m.centre[1], -0.5, 1e-5, "a thin bowl's centre");
 }
 
-/* A block that tumbles about its middle axis, which is unstable, in a box that turns and is shaken: energy
-   and angular momentum, seen from the world, stay; its centre flies straight. */
+/* A block tumbling about the unstable middle axis, in a turning and shaken box: energy and angular
+   momentum in the world are constant; the centre flies straight. */
 static void tumbling_keeps_momentum(void **state)
 {
     (void)state;
@@ -143,7 +143,9 @@ static void tumbling_keeps_momentum(void **state)
             own[k] *= body.mass.inertia[k];
         }
         quat_rotate(axes, own, L);
-        body_centre(&body, &now, x);
+        quat_rotate(now.pose.orientation, body.mass.centre, x);
+        for (int k = 0; k < 3; k++)
+            x[k] += now.pose.position[k];
         double v[3];
         body_velocity(&now.pose, x, v);
         box_to_world(&to, x, v, x_world, i == 0 ? v_world : v);
@@ -160,8 +162,8 @@ static void tumbling_keeps_momentum(void **state)
     }
 }
 
-/* A rod that hangs from its end: the period of small swings, 2 pi sqrt(2 l / 3 g); and the same in a box that
-   is accelerated sideways, where it hangs aslant. */
+/* A rod hanging from an end: the period of small swings, 2 pi sqrt(2 l / 3 g); and the same in a box
+   accelerated sideways, with a slanting rod. */
 static void rod_swings(void **state)
 {
     (void)state;
@@ -204,8 +206,8 @@ static void rod_swings(void **state)
     }
 }
 
-/* A push moves the centre of mass and turns about it, whether of this step or left by the one before; then
-   none is left. */
+/* A push moves the centre of mass and turns the body about the centre, in this step or left from the step
+   before; then no push is left. */
 static void pushes_move_and_turn(void **state)
 {
     (void)state;
@@ -226,8 +228,8 @@ static void pushes_move_and_turn(void **state)
     }
 }
 
-/* A block that falls on its corner comes to rest on the floor, flat, and never in it; one that lies on it
-   stays there; a ball rolls without gaining. */
+/* A block that falls on a corner comes to rest flat on the floor, and never inside the floor. A lying
+   block stays; a ball rolls without gaining energy. */
 static void blocks_come_to_rest(void **state)
 {
     (void)state;
@@ -305,8 +307,7 @@ static BodyStates beside_pillar(const SolidDef *body, const SolidDef *pillar, in
     return now;
 }
 
-/* A plate falls with the middle of its face, where its hull has no points, onto what stands: a box, a ball.
- */
+/* A plate falls with the middle of a face, without hull points, onto a fixed box and a fixed ball. */
 static void what_stands_holds_a_face(void **state)
 {
     (void)state;
@@ -324,8 +325,7 @@ static void what_stands_holds_a_face(void **state)
     }
 }
 
-/* All sides of what lies flat are held, or it would creep and turn.
- */
+/* All sides of a flat body are held: otherwise the body creeps and turns. */
 static void what_lies_flat_stays(void **state)
 {
     (void)state;
@@ -346,7 +346,8 @@ static void what_lies_flat_stays(void **state)
         near(pose->orientation[k], 0, 1e-8, "its turn");
 }
 
-/* The sentinel goes back from numbers that are none; until it looks nothing may wait for them. */
+/* The sentinel goes back from non-finite numbers; before the sentinel's look no loop may wait for finite
+   values. */
 static void what_is_no_number_ends(void **state)
 {
     (void)state;
@@ -363,7 +364,7 @@ static void what_is_no_number_ends(void **state)
         body_start(&bodies[b], (double[3]){0, 1, 0}, &now.of[b]);
     }
     now.of[1].pose.orientation[0] = (double)NAN;
-    alarm(60); /* ends what hangs */
+    alarm(60); /* end of hanging */
     body_contacts_hit(&world, 1e-3, &now);
     body_contacts_part(&world, &now);
     alarm(0);

@@ -1,11 +1,13 @@
-/* Solids that fluid moves, in worlds: how deep they lie, that they stay in the box, their bits. */
+/* Solids moved by fluid, in worlds: draught, containment in the box, bits. */
+#include "tests/lists.h"
+
 #include "../sim/fixture.h"
 
 #include "slosh/state.h"
 
 enum { METHODS = 4 };
 
-/* A tank, 2D, half a metre deep, with a block of a density in it about as high as it floats. */
+/* A tank, 2D, half a metre deep, with a floating block at about the equilibrium height. */
 static WorldDef tank(const char *method, double density)
 {
     WorldDef def = fixture_def(1.6, 1, 0);
@@ -35,7 +37,7 @@ static double middle_of(World *world)
     return info.floating[0].position[1];
 }
 
-/* Half of it under water, by the water that there is; the mean over a while, since it still bobs. */
+/* Half of the block under water, by the actual water; the mean over a while, since the block still bobs. */
 static void half_floats_half_under(void **state)
 {
     (void)state;
@@ -53,7 +55,7 @@ static void half_floats_half_under(void **state)
         }
         const double under = 0.5 + (level - mean) / 0.24;
         printf("%s: %.3f of its height under water\n", fixture_method_names[m], under);
-        if (!(fabs(under - 0.5) < 0.06)) /* 6 particles high: twice what finer ones are held to (floating) */
+        if (!(fabs(under - 0.5) < 0.06)) /* 6 particles high: twice the bound for finer blocks (floating) */
             fail_msg("%s: %.3f of its height is under water", fixture_method_names[m], under);
         world_info(world, &info);
         assert_int_equal(info.trouble.count, 0);
@@ -61,7 +63,7 @@ static void half_floats_half_under(void **state)
     }
 }
 
-/* Far lighter than what it takes along. */
+/* Far lighter than the added mass. */
 static void light_ones_hold(void **state)
 {
     (void)state;
@@ -83,15 +85,15 @@ static void light_ones_hold(void **state)
         }
 }
 
-/* A heavy one sinks to the floor and lies there; shaken hard, it is never beyond a wall. */
+/* A heavy block sinks to the floor and stays; shaken hard, the block is never beyond a wall. */
 static void heavy_ones_stay_in_the_box(void **state)
 {
     (void)state;
     WorldDef def = tank("mueller", 2500);
     World *world;
-    def.motion_count = 1;
-    def.motions[0] =
-        (Motion){.kind = MOTION_SHAKE, .axis = {1, 0.3, 0}, .amplitude = 0.1, .frequency = 2, .start = 1.5};
+    add_motion(
+        &def,
+        (Motion){.kind = MOTION_SHAKE, .axis = {1, 0.3, 0}, .amplitude = 0.1, .frequency = 2, .start = 1.5});
     world = fixture_world(&def);
     for (int i = 0; i < 300; i++) {
         WorldInfo info;

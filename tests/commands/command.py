@@ -160,12 +160,13 @@ class CommandTest(unittest.TestCase):
         return self.fail('the program came to its end each time before it was stopped')
 
     def wait_for(self, condition, process):
-        """Until it holds, which it must before the program ends."""
+        """Until it holds, which it must before the program ends. Returns what the condition gave."""
         end = time.monotonic() + 60
-        while not condition():
+        while not (found := condition()):
             self.assertIsNone(process.poll(), 'the program ended too early')
             self.assertLess(time.monotonic(), end, 'waited in vain')
             time.sleep(0.01)
+        return found
 
 
 class TinyDiskTest(CommandTest):

@@ -1,6 +1,6 @@
-/* A stand-in for hidapi, preloaded into the program by test_devices.py. The file that SLOSH_TEST_HID names is
-   what is plugged in, a line a device: VENDOR PRODUCT usb|bluetooth PATH ready|denied|busy|broken REPORT. A
-   ready one sends its report, in hexadecimal digits, every 10 ms, until its line is gone. */
+/* A stand-in for hidapi, preloaded into the program by test_devices.py. The file named by SLOSH_TEST_HID
+   lists the plugged devices, a line a device: VENDOR PRODUCT usb|bluetooth PATH ready|denied|busy|broken
+   REPORT. A ready device sends the report, in hexadecimal digits, every 10 ms, until the line is gone. */
 #include <errno.h>
 #include <fcntl.h>
 #include <hidapi.h>
@@ -107,7 +107,7 @@ int hid_read_timeout(hid_device *device, unsigned char *data, size_t length, int
     return (int)size;
 }
 
-/* The device files themselves, which the program asks why it may not open them. */
+/* The device files, for the program's question about permissions. */
 int open(const char *path, int flags, ...)
 {
     Line line;

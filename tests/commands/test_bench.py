@@ -32,7 +32,10 @@ class BenchTest(Case):
             return json.load(file)
 
     def check_stages(self, result):
-        self.assertEqual(list(result), FIELDS)
+        self.assertEqual(list(result), FIELDS + ["gl"])
+        self.assertIsNone(result["gl"]["substep"])
+        self.assertEqual(set(result["gl"]["picture"]), {"calls", "dispatches", "waits", "readbacks"})
+        self.assertTrue(50 < result["gl"]["picture"]["calls"] < 150, result["gl"])
         self.assertAlmostEqual(sum(stage["share"] for stage in result["stages"]), 1, places=6)
         self.assertEqual({stage["clock"] for stage in result["stages"] if stage["part"] == "render"}, {"finish"})
         self.assertEqual([s["name"] for s in result["stages"] if s["part"] == "sim"], STAGES_SIM)
@@ -63,7 +66,7 @@ class Bench(BenchTest):
         done = self.slosh_out("bench", SCENE, "--json", "b.json", "--frames", "2", "--size", "160x120",
                               "--view", "splat", "--set", "view.legend=false")
         (result,) = json.loads(self.read("b.json"))
-        self.assertEqual(list(result), FIELDS + ["coverage"])
+        self.assertEqual(list(result), FIELDS + ["gl", "coverage"])
         self.assertTrue(0.1 < result["coverage"] < 1, result["coverage"])
         fragments = {stage["name"]: stage["fragments"] for stage in result["stages"] if "fragments" in stage}
         self.assertEqual(list(fragments), ["visibility", "blend"])

@@ -1,9 +1,13 @@
-"""The pages of docs/ and the READMEs: what the program makes of them is new, examples load, commands are there."""
+"""The pages of docs/ and the READMEs: what the program makes of them is new, examples load, commands are there; how
+tools/docs makes pictures anew."""
+import importlib.machinery
 import json
 import os
 import pathlib
 import re
 import subprocess
+import sys
+import types
 
 import command
 from command import CommandTest
@@ -33,6 +37,56 @@ def help_of(*words):
     return subprocess.run([command.PROGRAM, 'help', *words], capture_output=True, text=True, check=True).stdout
 
 
+def tool(name):
+    """A script of tools/ as a module."""
+    sys.dont_write_bytecode = True
+    module = types.ModuleType(name)
+    module.__file__ = str(ROOT / 'tools' / name)
+    importlib.machinery.SourceFileLoader(name, module.__file__).exec_module(module)
+    return module
+
+
+PICTURES = """\
+```yaml
+title: A tank
+box: one
+```
+```yaml
+box: another
+```
+```
+mkdir -p x/pictures; cp mine.yaml x/pictures/first.png
+```
+```
+false; touch x/pictures/second.png
+```
+```
+touch not_a_picture
+```
+"""
+
+
+class Pictures(CommandTest):
+    def test_blocks_of_a_page_are_run(self):
+        docs, copy = tool('docs'), pathlib.Path(self.folder)
+        self.write('page.md', PICTURES)
+        failed = docs.run_page(self.path('page.md'), [], copy)
+        self.assertEqual(len(failed), 1)
+        self.assertIn('false; touch', failed[0])
+        self.assertEqual(self.read('x/pictures/first.png'), b'title: A tank\nbox: another\n')
+        self.assertFalse((copy / 'x/pictures/second.png').exists() or (copy / 'not_a_picture').exists())
+        self.assertEqual(docs.run_page(self.path('page.md'), ['first'], copy), [])  # the other block is not asked for
+
+    def test_what_one_sees_differs(self):
+        docs, paths = tool('docs'), []
+        for name, color in (('a', '0x808080'), ('b', '0x828282'), ('c', '0x868686'), ('small', '0x808080')):
+            paths.append(pathlib.Path(self.path(f'{name}.png')))
+            subprocess.run(['ffmpeg', '-v', 'error', '-f', 'lavfi', '-i', f'color={color}:size={"8x8" if name == "small" else "16x8"}',
+                            '-vf', 'format=rgb24', '-frames:v', '1', paths[-1]], check=True)
+        self.assertEqual([docs.differs(paths[0], path) for path in paths], [0, 0, 1, 1])
+        self.assertEqual(docs.differs(pathlib.Path(self.path('none.png')), paths[0]), 1)
+
+
 class Docs(CommandTest):
     def test_what_the_program_makes_is_new(self):
         done = subprocess.run([ROOT / 'tools/docs', '--check'], env={**os.environ, 'SLOSH': command.PROGRAM},
@@ -41,11 +95,11 @@ class Docs(CommandTest):
 
     def test_every_command_has_its_help(self):
         commands = set(re.findall(r'^  slosh (\w+)', help_of(), re.M)) - {'help'}
-        parts = re.findall(r'<!-- made: help (\w+) -->', (ROOT / 'docs/commands.md').read_text())
+        parts = re.findall(r'<!-- made: help (\w+) -->', (ROOT / 'docs/manual/commands.md').read_text())
         self.assertEqual(sorted(parts), sorted(commands))
 
     def test_examples_of_keys_load(self):
-        examples = re.findall(r'```yaml\n(.*?)```', (ROOT / 'docs/keys.md').read_text(), re.S)
+        examples = re.findall(r'```yaml\n(.*?)```', (ROOT / 'docs/manual/keys.md').read_text(), re.S)
         self.assertGreater(len(examples), 15)
         os.symlink(ROOT / 'scenes/meshes', self.path('meshes'))
         for k, example in enumerate(examples):
@@ -55,7 +109,7 @@ class Docs(CommandTest):
             self.assertTrue('no effect' not in said or example.startswith('metrics:'), said)
 
     def test_scenes_of_the_guide_load(self):
-        scenes = re.findall(r'```yaml\n(title:.*?)```', (ROOT / 'docs/guide.md').read_text(), re.S)
+        scenes = re.findall(r'```yaml\n(title:.*?)```', (ROOT / 'docs/manual/guide.md').read_text(), re.S)
         self.assertEqual(len(scenes), 2)
         for scene in scenes:
             self.write('mine.yaml', scene)
@@ -67,17 +121,18 @@ class Docs(CommandTest):
         for page in ROOT.glob('docs/add/*.md'):
             for block in re.findall(r'```diff\n(.*?)```', page.read_text(), re.S):
                 for name, lines in re.findall(r'^--- a/(.*)\n((?:(?!---).*\n)*)', block, re.M):
-                    taken += [(name, line[1:]) for line in lines.splitlines() if line.startswith('-')]
+                    taken += [(name, line[1:]) for line in lines.splitlines() if line[:1] in ('-', ' ')]
         self.assertGreater(len(taken), 4)
         for name, line in taken:
-            self.assertIn(line, (ROOT / name).read_text().splitlines(), name)
+            # without the end of a macro's line
+            self.assertIn(line.rstrip(' \\'), [there.rstrip(' \\') for there in (ROOT / name).read_text().splitlines()], name)
 
     def test_every_case_is_in_the_table(self):
         """All that run by themselves: cavity_1000 needs --full."""
         code, said = self.slosh('validate', 'nosuch')
         self.assertEqual(code, 2)
         names = set(re.search(r'these are there: (.*)', said)[1].split(', ')) - {'cavity_1000'}
-        figures = json.loads((ROOT / 'docs/validation.json').read_text())['cases']
+        figures = json.loads((ROOT / 'docs/labbook/validation.json').read_text())['cases']
         self.assertEqual({figure['case'] for figure in figures}, names)
 
     def test_commands_and_their_options_are_there(self):

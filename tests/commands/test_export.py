@@ -323,7 +323,7 @@ class Bad(ExportTest):
     def test_output(self):
         self.make('--time', '0')
         for name in ('b.h5part', 'a.abc', 'a', 'a.pvd/', '.ply', '.obj.series'):
-            self.refused('a.h5part', name, words='use .pvd, .vtp or .ply')
+            self.refused('a.h5part', name, words='use .pvd, .vtp, .ply, .ply.series, .obj or .obj.series')
         self.refused('a.h5part', 'no/a.vtp', words='No such file or directory; create it first', code=1)
         self.refused('a.h5part', 'no/a.pvd', words='No such file or directory; create it first', code=1)
         self.refused('a.h5part', 'a.vtp', '--json', 'no/a.json', words='no/a.json: cannot be written', code=1)
@@ -405,7 +405,7 @@ class Bad(ExportTest):
         for option in (['--surface'], ['--raw'], ['--kernel', 'cubic'], ['--size', '9x9'], ['--color-by', 'speed']):
             self.refused(*vtp, '{}', *option, words=f'{option[0]} makes no sense with --trails')
         for name in ('a.pvd', 'a.ply', 'a.csv', 'vtp'):
-            self.refused('a.h5part', name, '--trails', '{}', words="trails are one file, not '.*'; name an OUT.vtp")
+            self.refused('a.h5part', name, '--trails', '{}', words="cannot tell the format of trails from '.*'; use .vtp")
         self.refused('a.h5part', 'a.vti', '--trails', '{}', '--slice', '{}', words='--trails makes no sense with --slice')
         with h5py.File(self.path('a.h5part'), 'r+') as file:
             del file['Step#1']['pressure']

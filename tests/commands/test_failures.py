@@ -62,7 +62,7 @@ class Failures(unittest.TestCase):
                 commands, lines = told(path)
                 self.assertEqual(len(commands), 2, 'a command that fails, and one that does not')
                 self.assertTrue(lines, 'no line of what slosh says')
-                self.assertTrue((ROOT / f'docs/failures/{path.stem}.png').exists(), 'no picture; docs/failures.md has the command')
+                self.assertTrue((ROOT / f'docs/manual/failures/{path.stem}.png').exists(), 'no picture; docs/manual/failures.md has the command')
                 for words in commands:
                     self.assertEqual(words[1], f'failures/{path.stem}')
                 said, code = self.said_by(commands[0])

@@ -1,6 +1,7 @@
 """Backends on a GPU as a user meets them: the commands that run them, and what is said where they cannot."""
 import json
 import os
+import re
 import resource
 import shutil
 
@@ -45,6 +46,9 @@ class Gpu(CommandTest):
         self.assertGreater(min(s['median_ms'] for s in result['stages']), 0)
         self.assertAlmostEqual(sum(s['share'] for s in result['stages'] if s['part'] == 'sim'), 1, 6)  # all that the GPU did
         self.assertEqual((result['upload_ms'], result['render_ms']), (0, 0))
+        self.assertIsNone(result['gl']['picture'])
+        substep = result['gl']['substep']
+        self.assertTrue(50 < substep['calls'] < 150 and 5 < substep['dispatches'] < 15 and substep['readbacks'] == 0, substep)
         self.assertTrue(0 < result['sim_ms'] <= result['frame_ms'], result)
 
     def refused(self, code, words, *arguments):
@@ -58,6 +62,8 @@ class Gpu(CommandTest):
     def test_what_it_cannot_do_is_said(self):
         self.refused(2, "solver.backend.*'gpu'", '--backend', 'gpu')
         self.refused(1, 'there is no GPU 15', *ON, '--gpu', '15')
+        if re.search('renderer: .*; software: [^;]+$', self.slosh('run', 'scene.yaml', *ON, '-o', 'a.h5part', '--time', '0.01')[1], re.M):
+            self.refused(1, 'there is no GPU 0: .*; without --gpu a software driver will do', *ON, '--gpu', '0')
         self.refused(1, r'needs a buffer of \d+ bytes for this scene, and this driver allows shaders \d+', *ON, '--particles', '20000000')
 
     def test_a_gl_error_is_no_success(self):

@@ -16,7 +16,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 INSTALLED = ['bin/slosh', 'share/man/man1/slosh.1.gz', 'share/bash-completion/completions/slosh',
              'share/zsh/vendor-completions/_slosh', 'share/metainfo/slosh.metainfo.xml', 'lib/udev/rules.d/70-slosh.rules', 'share/applications/slosh.desktop',
              'share/icons/hicolor/256x256/apps/slosh.png', 'share/mime/packages/slosh.xml',
-             'share/doc/slosh/copyright', 'share/doc/slosh/docs/validation.json', 'share/slosh/scenes/dam_break.yaml',
+             'share/doc/slosh/copyright', 'share/doc/slosh/docs/labbook/validation.json', 'share/slosh/scenes/dam_break.yaml',
              'share/slosh/scenes/cases/couette.yaml',
              'share/slosh/scenes/reference/paper003-spheres.csv']
 

@@ -463,9 +463,11 @@ class Clashes(CommandTest):
         os.link(self.path('one.h5part'), self.path('other.h5part'))
         self.refused(*run, 'one.h5part', '--json', 'other.h5part', reason='would replace each other')
         self.refused('bench', '--table', 'paper003-substeps', '-o', 'a.svg', '--json', 'a.svg', reason='each other')
-        self.refused('play', 'scene.yaml', '--record', 'a', '--json', 'a', reason='--json a and --record a would replace '
+        self.refused('play', 'scene.yaml', '--record', 'a', '--json', 'a', reason='--record a and --json a would replace '
                      'each other')
         self.refused('devices', '--record', 'a', '--json', 'a', reason='would replace each other')
+        self.refused('info', 'scene.yaml', '--save', 'a.yaml', '--json', 'a.yaml', reason='--save a.yaml and --json a.yaml would '
+                     'replace each other')
 
     def test_what_comes_with_an_output(self):
         self.refused('chart', 'scene.yaml', '-o', 'a.b.svg', '--json', 'a.b.csv',

@@ -106,7 +106,7 @@ class Slice(CommandTest):
         self.assertFalse([name for name in os.listdir(self.folder) if name.startswith('no-')])
 
     def derived(self, name, periodic=()):
-        """A derived scalar of each particle by its definition: render/particles/derived.h. The box is 1 m wide."""
+        """A derived scalar of each particle by its definition: render/particles/particles.h. The box is 1 m wide."""
         def value(group):
             at, v = (numpy.stack([group[name][:] for name in names], 1).astype(float)
                      for names in ('xyz', ('velocity_0', 'velocity_1', 'velocity_2')))

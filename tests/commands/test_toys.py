@@ -1,5 +1,6 @@
-"""A method and a view that the program does not have (tests/sim/toy_method.h, tests/render/toy_view.h), linked to it:
-nothing else names them, and each command knows them."""
+"""A method, a view, an effect, a command, formats, an experiment and an action that the program does not have
+(tests/sim/toy_method.h, tests/render/toy_view.h, tests/render/toy_effect.h, tests/app/toy_command.h, tests/app/toy_format.h,
+tests/app/toy_experiment.h, tests/app/toy_action.h), linked to it: nothing else names them, and the program knows them."""
 import json
 import os
 import re
@@ -33,9 +34,13 @@ end 40 {}
 """
 
 
-def middle(path):
+def pixel(path, x, y):
+    return middle(path, f'crop=1:1:{x}:{y}')
+
+
+def middle(path, crop='crop=1:1'):
     """The pixel in the middle of an image."""
-    pixels = subprocess.run(['ffmpeg', '-v', 'error', '-i', path, '-vf', 'crop=1:1', '-f', 'rawvideo', '-pix_fmt', 'rgb24', '-'],
+    pixels = subprocess.run(['ffmpeg', '-v', 'error', '-i', path, '-vf', crop, '-f', 'rawvideo', '-pix_fmt', 'rgb24', '-'],
                             capture_output=True, check=True).stdout
     return list(pixels)
 
@@ -59,9 +64,10 @@ class Toys(CommandTest):
         self.assertEqual((code, without_usual(said)), (0, ''), arguments)
 
     def test_each_is_one_small_file(self):
-        for name in ('sim/toy_method.h', 'render/toy_view.h'):
+        for name, most in (('sim/toy_method.h', 60), ('render/toy_view.h', 60), ('render/toy_effect.h', 60), ('app/toy_command.h', 60), 
+                           ('app/toy_format.h', 60), ('app/toy_action.h', 60), ('app/toy_experiment.h', 150)):
             with open(os.path.join(TESTS, name)) as file:
-                self.assertLessEqual(len(file.readlines()), 60, name)
+                self.assertLessEqual(len(file.readlines()), most, name)
 
     def test_they_are_listed(self):
         self.do('info', '--json', 'a.json')
@@ -74,6 +80,77 @@ class Toys(CommandTest):
         scene = self.said('info', 'toys.yaml')
         self.assertIn('solver.springs = 20', scene)
         self.assertIn('view.toy.shade = 0.25', scene)
+
+    def test_the_command(self):
+        """Help, manual page, completion and messages come from the rows."""
+        self.assertEqual(self.said('toy', '--sides', '12', '--word=ab'), '14\n')
+        self.assertIn('  slosh toy       [OPTIONS]', self.said('help'))
+        self.assertIn('  --sides N              of the die (6)\n', self.said('help', 'toy'))
+        self.assertIn('\\fB\\-\\-word\\fR \\fITEXT\\fR\na word more\n', self.said('help', 'man'))
+        self.assertIn("    toy)\n        offered='--sides --word --quiet --help '", self.said('help', 'bash'))
+        code, said = self.slosh('toy', '--sides', '1')
+        self.assertEqual((code, said), (2, 'slosh toy: --sides must be 2 to 20, not 1\n'))
+        code, said = self.slosh('run', 'toys.yaml', '--sides', '3')
+        self.assertEqual((code, said), (2, "slosh run: unknown option '--sides', which is one of slosh toy; `slosh help run` lists its own\n"))
+
+    def test_the_formats(self):
+        """One file, a series, the list, the messages."""
+        self.do('run', 'toys.yaml', '-o', 'a.h5part', '--time', '0.04', '--every', '0.04')
+        self.do('export', 'a.h5part', '-o', 'a.xyz', '--time', '0')
+        lines = self.read('a.xyz').decode().splitlines()
+        self.assertEqual((int(lines[0]), lines[1]), (len(lines) - 2, '0 s, frame of the box'))
+        self.assertGreater(len(lines), 100)
+        self.do('export', 'a.h5part', '-o', 'b.xyz.series')
+        files = json.loads(self.read('b.xyz.series'))['files']
+        self.assertEqual([file['name'] for file in files], ['b/b-0000.xyz', 'b/b-0001.xyz'])
+        self.assertEqual(self.read('b/b-0000.xyz'), self.read('a.xyz'))
+        self.do('info', '--json', 'a.json')
+        self.assertIn({'name': 'xyz', 'help': 'one snapshot as atoms'}, json.loads(self.read('a.json'))['exports'])
+        code, said = self.slosh('export', 'a.h5part', '-o', 'a.abc')
+        self.assertEqual((code, said.splitlines()[-1]), (2, "cannot tell the format from 'a.abc'; use .pvd, .vtp, .ply, .ply.series, "
+                                                         '.obj, .obj.series, .xyz or .xyz.series'))
+        code, said = self.slosh('export', 'a.h5part', '-o', 'a.xyz', '--color-by', 'speed')
+        self.assertEqual(code, 2)
+
+    def test_the_format_of_a_video(self):
+        self.do('render', 'toys.yaml', '-o', 'a.mkv', '--frames', '2', '--fps', '25', '--set', 'solver.step.dt=0.01', '--size', '65x33')
+        probe = ['ffprobe', '-v', 'error', '-count_frames', '-show_entries', 'stream=codec_name,width,height,nb_read_frames', '-of', 'csv=p=0']
+        self.assertEqual(subprocess.run([*probe, self.path('a.mkv')], capture_output=True, text=True, check=True).stdout.strip(), 'ffv1,65,33,2')
+        self.do('info', '--json', 'a.json')
+        self.assertEqual(json.loads(self.read('a.json'))['pictures'][-1], {'name': 'mkv', 'help': 'a video without loss'})
+        code, said = self.slosh('render', 'toys.yaml', '-o', 'a.abc')
+        self.assertEqual((code, said), (2, "cannot tell the format from 'a.abc'; use .png, .mp4, .gif, .mkv or a folder name\n"))
+
+    def test_the_experiment(self):
+        """Trials are kept; a second run makes damaged trials alone; table, chart, JSON, files and messages."""
+        words = ['calm', 'scene.yaml', '-o', 'a.svg', '--time', '0.02']
+        said = self.said(*words, '--json', 'a.json')
+        runs = json.loads(self.read('a.json'))['runs']
+        self.assertEqual([run['spacing'] for run in runs], sorted((run['spacing'] for run in runs), reverse=True))
+        self.assertEqual(said, ''.join(f"{run['spacing']:8.4g} m {run['energy']:12.4g} J\n" for run in runs))
+        self.assertIn('energy of motion, J', self.read('a.svg').decode())
+        rows = self.read('a.csv').decode()
+        self.assertRegex(rows, r'\Akey,spacing_m,energy_j\n([0-9a-f]{16},[0-9.]+,[0-9.e-]+\n){3}\Z')
+        code, told = self.slosh(*words)
+        self.assertEqual((code, told), (0, '3 of 3 runs are in a.csv already\n'))
+        self.assertEqual(self.read('a.csv').decode(), rows)
+        damaged = rows.splitlines(keepends=True)
+        damaged[2] = re.sub(',[^,]*\n', ',-1\n', damaged[2])
+        self.write('a.csv', ''.join(damaged))
+        code, told = self.slosh(*words)
+        self.assertIn('a.csv:3: this energy_j is none that slosh calm writes; the row is left out, its run made again\n', told)
+        self.assertEqual((code, sorted(self.read('a.csv').decode().splitlines())), (0, sorted(rows.splitlines())))
+        self.write('a.csv', 'day,rain\n')
+        code, told = self.slosh(*words, '--quiet', '--json', 'a.json')
+        self.assertEqual((code, told), (1, 'a.csv: is there already, and no slosh calm wrote it; give the chart another name, or move that file\n'))
+        self.assertEqual(json.loads(self.read('a.json')), {'command': 'calm', 'scene': 'scene.yaml', 'output': 'a.svg', 'error': told[:-1]})
+        self.assertEqual(self.slosh('calm', 'scene.yaml', '-o', 'a.gif')[0], 2)
+
+    def test_the_action(self):
+        """The action is in the help of the window and in a file of mappings."""
+        self.assertIn('\n| `count` | F8 | tell how many particles are shown |\n', self.said('help', 'window'))
+        self.write('m.yaml', 'dualsense:\n  buttons: {circle: count}\n')
+        self.assertIn('  circle         tell how many particles are shown\n', self.said('devices', '--mapping', 'm.yaml'))
 
     def test_a_run_goes_on(self):
         import h5py
@@ -95,6 +172,14 @@ class Toys(CommandTest):
         self.do('render', 'scene.yaml', '-o', 'b.png', '--time', '0', '--size', '256x256', '--view', 'toy',
                 '--set', 'view.toy.shade=0')
         self.assertEqual(middle(self.path('b.png')), [0] * 3)
+
+    def test_the_effect(self):
+        """A strip along the lower edge, of pictures of best quality alone."""
+        for quality, strip in (('best', 188), ('good', SHADE)):
+            self.do('render', 'toys.yaml', '-o', 'a.png', '--time', '0', '--size', '64x64', '--set', f'view.quality={quality}',
+                    '--set', 'view.camera={from: [0, 0.5, 0.1], to: [0, 0.5, -1]}', '--set', 'view.legend=false')
+            self.assertEqual(pixel(self.path('a.png'), 32, 60), [strip] * 3, quality)
+            self.assertEqual(pixel(self.path('a.png'), 32, 40), [SHADE] * 3, quality)
 
     def test_bench_has_them(self):
         self.do('bench', 'scene.yaml', '--method', 'toy', '--view', 'toy', '--frames', '1', '--size', '32x32',
@@ -133,6 +218,12 @@ class InTheWindow(Window):
         self.quit()
         code, said = self.slosh('replay', 'a.rec', '--quiet')
         self.assertEqual((code, without_usual(said)), (0, ''))
+
+    def test_a_key_gives_the_action(self):
+        self.start('scene.yaml')
+        self.keys('F8')
+        self.wait_for(lambda: re.search(r'^[1-9][0-9]* particles are shown$', self.said_now(), re.M), self.process)
+        self.quit()
 
 
 if __name__ == '__main__':

@@ -4,7 +4,7 @@
 
 #include "tests/device/report_fixture.h"
 
-#include "app/input/device/devices.h"
+#include "app/input/device/device.h"
 #include "slosh/world.h"
 
 #include <pthread.h>
@@ -16,14 +16,14 @@ enum { STAND_IN_DEVICES = 4, STAND_IN_QUEUE = 64, STAND_IN_FEATURES = 8 };
 typedef struct StandInDevice {
     HidInfo info;
     bool present, twice; /* twice: enumerated as two collections of one path */
-    int refusal;         /* -1: it opens; else HidRefusal */
+    int refusal;         /* -1: opens; else HidRefusal */
     bool broken;         /* reads fail */
     bool stalled;        /* reads do not come back, whatever the time */
     bool hasty;          /* reads come back at once with nothing */
     int lie;             /* more than 0: the length that the next read claims */
     Report queue[STAND_IN_QUEUE];
     int queued;
-    Report feature;  /* what get_feature of its id gives */
+    Report feature;  /* result of get_feature for the id */
     int feature_lie; /* more than 0: the length it claims */
     int damaged;     /* how often its last byte is wrong */
     int asked_count; /* ids that were asked for */
@@ -137,7 +137,7 @@ static const HidPort stand_in_port = {.self = &stand_in,
                                       .get_feature = stand_in_feature,
                                       .close = stand_in_close};
 
-/* What follows takes the lock by itself. */
+/* The following functions take the lock. */
 
 static inline StandInDevice *plug(int place, uint16_t vendor, uint16_t product, bool bluetooth)
 {

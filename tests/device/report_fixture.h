@@ -32,7 +32,7 @@ static inline void seal(uint8_t kind, uint8_t *bytes, size_t size)
         bytes[size - 4 + (size_t)i] = (uint8_t)(sum >> 8 * i);
 }
 
-/* What a layout's report of its sensors looks like. */
+/* Layout of a sensor report. */
 typedef struct LayoutFacts {
     uint8_t id;
     size_t size, payload;
@@ -56,7 +56,7 @@ static inline bool is_cap(ReportLayout layout)
     return layout <= LAYOUT_SPACEMOUSE_ANY;
 }
 
-/* A valid report with nothing pressed and nothing moved. */
+/* A valid report without presses and motion. */
 static inline Report rest_report(ReportLayout layout)
 {
     const LayoutFacts *facts = &layout_facts[layout];

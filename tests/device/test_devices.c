@@ -2,7 +2,7 @@
 #include "tests/device/hid_stand_in.h"
 #include "tests/scratch.h"
 
-#include "app/input/device/devices.h"
+#include "app/input/device/device.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -54,7 +54,7 @@ static int count_told(DeviceEventKind kind, int number)
     return count;
 }
 
-/* The `count`th event of that kind of that device (0: of any), which must come. */
+/* The `count`th event of a kind for a device (0: any); the event must exist. */
 static Told await(DeviceEventKind kind, int number, int count)
 {
     const double until = wall_ms() + PATIENCE_MS;
@@ -160,13 +160,13 @@ static void what_is_plugged_in_later_is_noticed(void **state)
     assert_int_equal(gone.state.reports, 1);
     await_count(&pad->closes, 1);
     plug(0, 0x054c, 0x09cc, false);
-    const Told again = await(DEVICE_PLUGGED, 2, 1); /* another number */
+    const Told again = await(DEVICE_PLUGGED, 2, 1); /* a different number */
     assert_int_equal(again.state.reports, 0);
     stop(devices);
 }
 
-/* The system holds the read of a device that is gone: it is told all the same, and the stop does not wait for
- * it. */
+/* The system blocks the read of a removed device: the removal is reported all the same, and the stop does
+   not wait for the read. */
 static void a_stalled_read_holds_nothing_up(void **state)
 {
     (void)state;
@@ -183,7 +183,7 @@ static void a_stalled_read_holds_nothing_up(void **state)
     await(DEVICE_UNPLUGGED, 1, 1);
     STAND_IN_SET(pad->present, true); /* plugged in again at the same path */
     await(DEVICE_PLUGGED, 3, 1);
-    devices_stop(devices); /* which waits for no read that may never end */
+    devices_stop(devices); /* without waiting for an endless read */
     const int count = told_count;
     STAND_IN_SET(pad->stalled, false);
     await_count(&pad->closes, 2); /* the threads end by themselves */
@@ -232,7 +232,7 @@ static void lengths_that_lie_change_nothing(void **state)
     stop(devices);
 }
 
-/* A read that comes back at once with nothing does not turn into a busy loop. */
+/* A read that returns at once without data causes no busy loop. */
 static void a_hasty_read_is_slowed_down(void **state)
 {
     (void)state;
@@ -276,14 +276,14 @@ static void permission_denied_is_told_once_with_the_command(void **state)
     STAND_IN_SET(pad->refusal, -1); /* the rule was installed */
     const Told plugged = await(DEVICE_PLUGGED, 1, 1);
     assert_string_equal(plugged.problem, "");
-    STAND_IN_SET(cap->present, false); /* and a refused one is drawn: nobody needs to hear of it any more */
+    STAND_IN_SET(cap->present, false); /* and a refused device is unplugged: no further reports */
     await(DEVICE_UNPLUGGED, 2, 1);
     await_count(&stand_in.looks, stand_in_get(&stand_in.looks) + 3);
     assert_int_equal(count_told(DEVICE_UNPLUGGED, 0), 1);
     stop(devices);
 }
 
-/* udev gives a device its rights a moment after it appears. */
+/* udev grants access a moment after a device appears. */
 static void a_new_device_is_given_a_moment(void **state)
 {
     (void)state;
@@ -319,7 +319,7 @@ static void what_is_no_motion_device_is_left_alone(void **state)
     assert_int_equal(told_count, 1);
 }
 
-/* A look that fails is none: nothing is unplugged by it. */
+/* A failed look has no effect: no device counts as unplugged. */
 static void a_look_that_fails_changes_nothing(void **state)
 {
     (void)state;

@@ -1,9 +1,9 @@
-/* What devices do: built in, from a file, and each axis with its sign. */
-#include "tests/near.h"
+/* Mappings of devices: built in, from a file, and each axis with sign. */
 #include "tests/scratch.h"
+#include "tests/tolerance.h"
 
 #include "app/input/device/device.h"
-#include "app/input/mapping.h"
+#include "app/input/input.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -35,7 +35,7 @@ static void check_same_map(const DeviceMap *a, const DeviceMap *b)
     assert_int_equal(a->button_count, b->button_count);
     for (int i = 0; i < a->button_count; i++) {
         assert_string_equal(a->buttons[i].name, b->buttons[i].name);
-        assert_int_equal(a->buttons[i].command, b->buttons[i].command);
+        assert_ptr_equal(a->buttons[i].action, b->buttons[i].action);
     }
 }
 
@@ -50,7 +50,7 @@ static void check_same_maps(const Mapping *a, const Mapping *b)
     }
 }
 
-/* With a message that begins so, says what would be right, and changes nothing. */
+/* With a message beginning so, with valid alternatives, and no change. */
 static void check_refused(const char *text, const char *message)
 {
     Mapping mapping, before;
@@ -97,7 +97,7 @@ static void what_is_built_in_comes_back_from_its_file(void **state)
     free(text);
 }
 
-/* Each value other than it was: nothing is left out of the file, or read into another's place. */
+/* Each value differs from the default: no value is missing in the file or read into a wrong place. */
 static void what_was_changed_comes_back(void **state)
 {
     (void)state;
@@ -115,8 +115,10 @@ static void what_was_changed_comes_back(void **state)
             map->pose_gain = 1;
         for (int i = 0; i < MAPPING_AXES; i++)
             map->axes[i] = (AxisMap){(i + d) % (MAP_ZOOM + 1), (i + d) % 2, 0.5 * i + d, i % 2};
-        for (int i = 0; i < map->button_count; i++)
-            map->buttons[i].command = (i + d) % (PLAY_QUIT + 2) - 1;
+        for (int i = 0; i < map->button_count; i++) {
+            const int place = (i + d) % 50; /* all of the list's begin are presses; 0: nothing */
+            map->buttons[i].action = place > 0 ? user_actions[place - 1] : NULL;
+        }
     }
     char *text = written(&mapping, mapping_write);
     check_taken(text, &back);
@@ -141,11 +143,11 @@ static void what_is_left_out_stays(void **state)
     sense->axes[1].invert = true;
     for (int i = 0; i < sense->button_count; i++) {
         if (strcmp(sense->buttons[i].name, "circle") == 0)
-            sense->buttons[i].command = PLAY_NEUTRAL;
+            sense->buttons[i].action = &action_neutral;
         if (strcmp(sense->buttons[i].name, "cross") == 0)
-            sense->buttons[i].command = PLAY_NONE;
+            sense->buttons[i].action = NULL;
     }
-    should.own_count = 1; /* begins with its family's */
+    should.own_count = 1; /* begins with the family's */
     should.own[0] = (struct OwnMap){0x054c, 0x0df2, *sense};
     should.own[0].map.gain = 3;
     check_same(&mapping, &should);
@@ -213,7 +215,7 @@ static DeviceState with_axis(DeviceFamily family, int axis, double value)
     return state;
 }
 
-/* Where the middle of the box goes, or how it is turned, seen by a user who looks along -z; over 0.1 s. */
+/* The motion of the box's middle, or the turn, for a user looking along -z; over 0.1 s. */
 static void box_after(const DeviceMap *map, const DeviceState *state, BoxTarget *target)
 {
     static const double size[3] = {1, 1, 1};
@@ -354,7 +356,7 @@ static void a_pose_with_gain(void **state)
     check_near(out[3], 1, 0, "none");
 }
 
-static PlayCommand command_of(Mapping *mapping, uint16_t product, const char *button)
+static const UserAction *action_of(Mapping *mapping, uint16_t product, const char *button)
 {
     const DeviceRow *row = device_row(product > 0xc000 ? 0x256f : 0x054c, product);
     assert_non_null(row);
@@ -362,7 +364,7 @@ static PlayCommand command_of(Mapping *mapping, uint16_t product, const char *bu
     for (int bit = 0; bit < DEVICE_BUTTONS_MAX; bit++)
         if (row->buttons[bit] && strcmp(row->buttons[bit], button) == 0)
             return mapping_button(map, row->vendor, row->product, bit);
-    return PLAY_NONE;
+    return NULL;
 }
 
 static void buttons_by_name_whatever_their_bit(void **state)
@@ -370,25 +372,25 @@ static void buttons_by_name_whatever_their_bit(void **state)
     (void)state;
     Mapping mapping;
     mapping_default(&mapping);
-    assert_int_equal(command_of(&mapping, 0x0ce6, "triangle"), PLAY_NEUTRAL);
-    assert_int_equal(command_of(&mapping, 0x05c4, "triangle"), PLAY_NEUTRAL);
-    assert_int_equal(command_of(&mapping, 0x05c4, "cross"), PLAY_BOX_HOME);
-    assert_int_equal(command_of(&mapping, 0x0df2, "options"), PLAY_PAUSE);
-    assert_int_equal(command_of(&mapping, 0xc635, "left"), PLAY_BOX_HOME);
-    assert_int_equal(command_of(&mapping, 0xc635, "right"), PLAY_PAUSE);
-    assert_int_equal(command_of(&mapping, 0xc631, "menu"), PLAY_PAUSE);
-    assert_int_equal(mapping_button(&mapping.family[0], 0x256f, 0xc635, 31), PLAY_NONE);
-    assert_int_equal(mapping_button(&mapping.family[0], 0x256f, 0xc635, 32), PLAY_NONE);
-    assert_int_equal(mapping_button(&mapping.family[0], 1, 2, 0), PLAY_NONE);
+    assert_ptr_equal(action_of(&mapping, 0x0ce6, "triangle"), &action_neutral);
+    assert_ptr_equal(action_of(&mapping, 0x05c4, "triangle"), &action_neutral);
+    assert_ptr_equal(action_of(&mapping, 0x05c4, "cross"), &action_box_home);
+    assert_ptr_equal(action_of(&mapping, 0x0df2, "options"), &action_pause);
+    assert_ptr_equal(action_of(&mapping, 0xc635, "left"), &action_box_home);
+    assert_ptr_equal(action_of(&mapping, 0xc635, "right"), &action_pause);
+    assert_ptr_equal(action_of(&mapping, 0xc631, "menu"), &action_pause);
+    assert_null(mapping_button(&mapping.family[0], 0x256f, 0xc635, 31));
+    assert_null(mapping_button(&mapping.family[0], 0x256f, 0xc635, 32));
+    assert_null(mapping_button(&mapping.family[0], 1, 2, 0));
 
     /* No button of a product is without a place. */
     for (const DeviceRow *row = device_rows; row->name; row++)
         for (int bit = 0; bit < DEVICE_BUTTONS_MAX; bit++) {
             DeviceMap *map = &mapping.family[row->family];
             for (int i = 0; i < map->button_count; i++)
-                map->buttons[i].command = PLAY_HELP;
-            assert_int_equal(mapping_button(map, row->vendor, row->product, bit),
-                             row->buttons[bit] ? PLAY_HELP : PLAY_NONE);
+                map->buttons[i].action = &action_help;
+            assert_ptr_equal(mapping_button(map, row->vendor, row->product, bit),
+                             row->buttons[bit] ? &action_help : NULL);
         }
 }
 
@@ -401,7 +403,7 @@ static void files(void **state)
     scratch_folder(folder);
     setenv("XDG_CONFIG_HOME", folder, 1);
     assert_true(mapping_user_path(own));
-    assert_true(mapping_load(NULL, &mapping, &error)); /* none of his own */
+    assert_true(mapping_load(NULL, &mapping, &error)); /* without own mappings */
 
     snprintf(path, sizeof path, "%s/a.yaml", folder);
     assert_false(mapping_load(path, &mapping, &error));
@@ -439,7 +441,7 @@ static void the_example_in_the_docs(void **state)
     (void)state;
     char text[1 << 16];
     Mapping mapping;
-    FILE *file = fopen(SLOSH_SOURCE_DIR "/docs/devices.md", "r");
+    FILE *file = fopen(SLOSH_SOURCE_DIR "/docs/manual/devices.md", "r");
     assert_non_null(file);
     text[fread(text, 1, sizeof text - 1, file)] = 0;
     fclose(file);
@@ -452,11 +454,11 @@ static void the_example_in_the_docs(void **state)
     const DeviceState right = with_axis(DEVICE_DUALSENSE, 0, 1);
     box_after(&mapping.family[DEVICE_DUALSENSE], &right, &target);
     assert_true(target.orientation[2] < -0.1); /* to the right, as it says */
-    assert_int_equal(command_of(&mapping, 0x0ce6, "circle"), PLAY_NEUTRAL);
+    assert_ptr_equal(action_of(&mapping, 0x0ce6, "circle"), &action_neutral);
     assert_int_equal(mapping.own_count, 1);
 }
 
-/* A byte of it changed, or cut off there: taken or refused, and nothing else. */
+/* A byte changed, or the text cut off: accepted or refused, without further effects. */
 static void damaged_files(void **state)
 {
     (void)state;

@@ -1,10 +1,9 @@
-/* The orientation of a device, from readings of a made-up sensor whose true pose is known.
-
-   Noise and bias are those of the Bosch BMI055, which teardowns name as the DualShock 4's sensor; the
-   DualSense's is of its kind. Gyro: 0.014 degrees/s/sqrt(Hz), at the 47 Hz of its filter 0.12 degrees/s;
-   zero-rate offset 1 degree/s, of which the device's calibration leaves what 20 K do to it: 0.3 degrees/s.
-   Accelerometer: 150 ug/sqrt(Hz), 1.3 mg. Readings are rounded to the reports' 1/16 degree/s and 1/8192 g. */
-#include "tests/near.h"
+/* The orientation of a device, from readings of a synthetic sensor with known pose. Noise and bias are of
+   the Bosch BMI055, the DualShock 4's sensor according to teardowns; the DualSense has a similar sensor.
+   Gyro: 0.014 degrees/s/sqrt(Hz), at the filter's 47 Hz 0.12 degrees/s. Zero-rate offset 1 degree/s,
+   after the device's calibration 0.3 degrees/s: the effect of 20 K. Accelerometer: 150 ug/sqrt(Hz), 1.3
+   mg. Readings are rounded to the reports' 1/16 degree/s and 1/8192 g. */
+#include "tests/tolerance.h"
 
 #include "app/input/device/device.h"
 #include "slosh/def.h"
@@ -12,7 +11,7 @@
 #include <string.h>
 
 static const double degrees = 180 / M_PI, radians = M_PI / 180, g = 9.80665, DT = 0.004;
-static const double GYRO_NOISE = 0.12, FELT_NOISE = 0.0013, BIAS = 0.3, RAW_BIAS = 1;
+static const double GYRO_NOISE = 0.12, ACCELEROMETER_NOISE = 0.0013, BIAS = 0.3, RAW_BIAS = 1;
 enum { X, Y, Z };
 
 static uint64_t seed;
@@ -23,7 +22,7 @@ static double uniform(void) /* 0 .. 1 */
     return (double)(seed >> 11) * 0x1p-53;
 }
 
-static double normal(void) /* Irwin and Hall: twelve of them have a variance of one */
+static double normal(void) /* Irwin and Hall: the sum of twelve has a variance of 1 */
 {
     double sum = -6;
     for (int i = 0; i < 12; i++)
@@ -35,9 +34,9 @@ static double normal(void) /* Irwin and Hall: twelve of them have a variance of 
 typedef struct Sensor {
     Orientation orientation;
     double time;
-    double pose[4]; /* the true one */
+    double pose[4]; /* the true pose */
     double bias[3]; /* degrees/s */
-    double noise;   /* of those above */
+    double noise;   /* of the columns above */
 } Sensor;
 
 static Sensor sensor_at_rest(double bias, double noise)
@@ -52,19 +51,20 @@ static Sensor sensor_at_rest(double bias, double noise)
 /* The next report: the device turns by `rate` (degrees/s, its own axes) and is pushed (m/s2, the world's). */
 static void sensor_step(Sensor *sensor, const double rate[3], const double push[3])
 {
-    double turn[3], outside[3], said[3], felt[3];
+    double turn[3], outside[3], said[3], specific_force[3];
     for (int k = 0; k < 3; k++)
         turn[k] = rate[k] * radians * DT;
     quat_rotate(sensor->pose, turn, outside);
     quat_turn(outside, sensor->pose);
     sensor->time += DT;
-    quat_rotate_inverse(sensor->pose, (double[]){push[X], push[Y] + g, push[Z]}, felt);
+    quat_rotate_inverse(sensor->pose, (double[]){push[X], push[Y] + g, push[Z]}, specific_force);
     for (int k = 0; k < 3; k++) {
         const double degrees_s = rate[k] + sensor->bias[k] + sensor->noise * GYRO_NOISE * normal();
         said[k] = round(degrees_s * 16) / 16 * radians;
-        felt[k] = round((felt[k] / g + sensor->noise * FELT_NOISE * normal()) * 8192) / 8192 * g;
+        specific_force[k] =
+            round((specific_force[k] / g + sensor->noise * ACCELEROMETER_NOISE * normal()) * 8192) / 8192 * g;
     }
-    assert_true(orientation_update(&sensor->orientation, sensor->time, said, felt));
+    assert_true(orientation_update(&sensor->orientation, sensor->time, said, specific_force));
 }
 
 static void lie_still(Sensor *sensor, double seconds)
@@ -137,7 +137,7 @@ static void a_turn_is_followed_from_the_first_report(void **state)
     }
 }
 
-/* What is felt alone: the device was tilted before it was plugged in. */
+/* Accelerometer only: the device was tilted before plugging in. */
 static void the_first_report_gives_the_tilt(void **state)
 {
     (void)state;
@@ -167,17 +167,17 @@ static void at_rest_it_does_not_drift(void **state)
         check_near(sensor.orientation.bias[k] * degrees, sensor.bias[k], 0.02, "the bias");
 }
 
-/* As a device would be that has lost its calibration. */
-/* An accelerometer that reads too much of everything, which is hardly believed until the device has lain
-   still: what a g is to it is learned. */
+/* Like a device with lost calibration. */
+/* An accelerometer with too large readings, hardly trusted before the device has lain still: then the
+   size of a g is learned. */
 static void gravity_is_what_it_feels(void **state)
 {
     (void)state;
-    static const double still[3] = {0}, felt[3] = {0, 1.14 * 9.80665, 0};
+    static const double still[3] = {0}, specific_force[3] = {0, 1.14 * 9.80665, 0};
     Orientation orientation = orientation_start();
     for (int i = 1; i <= 500; i++)
-        assert_true(orientation_update(&orientation, i * DT, still, felt));
-    check_near(orientation.gravity, felt[Y], 1e-6, "m/s2");
+        assert_true(orientation_update(&orientation, i * DT, still, specific_force));
+    check_near(orientation.gravity, specific_force[Y], 1e-6, "m/s2");
 }
 
 static void a_large_bias_is_learned_too(void **state)
@@ -188,7 +188,7 @@ static void a_large_bias_is_learned_too(void **state)
     check_pose(&sensor, 0.5, "after a minute");
 }
 
-/* In a hand that trembles nothing is learned: what was learned before must do. */
+/* In a trembling hand learning stops: earlier values stay in use. */
 static void in_the_hand_it_hardly_drifts(void **state)
 {
     (void)state;
@@ -214,7 +214,7 @@ static void shaken_it_stays_upright(void **state)
     for (int i = 0; i < 10 / DT; i++)
         sensor_step(&sensor, (double[3]){0}, (double[]){1.5 * g * sin(2 * M_PI * 2 * i * DT), 0, 0});
     worst = check_pose(&sensor, 1, "while shaken");
-    for (int i = 0; i < 0.6 / DT; i++) /* one push that lasts */
+    for (int i = 0; i < 0.6 / DT; i++) /* a single lasting push */
         sensor_step(&sensor, (double[3]){0}, (double[]){0, 0, 0.8 * g});
     worst = fmax(worst, check_pose(&sensor, 1, "pushed"));
     print_message("shaken: %.3f degrees off\n", worst);
@@ -230,7 +230,8 @@ static void a_slow_turn_is_no_bias(void **state)
     check_pose(&sensor, 0.5, "after ten seconds");
 }
 
-/* Held in some way, and the user sits elsewhere than before: a tilt of its top away from him is one again. */
+/* Held at some angle, with the user in a new seat: a tilt of the top away from the user is again a tilt
+   away. */
 static void any_pose_can_be_the_neutral_one(void **state)
 {
     (void)state;
@@ -242,13 +243,13 @@ static void any_pose_can_be_the_neutral_one(void **state)
     orientation_neutral(&sensor.orientation);
     orientation_turned(&sensor.orientation, turned);
     check_near(between(turned, (double[]){0, 0, 0, 1}), 0, 1e-6, "at once");
-    turn_about(&sensor, (double[]){-1, 0, 0}, 25, 0.5); /* about its right side, which is the user's */
+    turn_about(&sensor, (double[]){-1, 0, 0}, 25, 0.5); /* about the device's right side, the user's right */
     orientation_turned(&sensor.orientation, turned);
     quat_turn((double[]){-25 * radians, 0, 0}, away);
     check_near(between(turned, away), 0, 1, "the turn");
 }
 
-/* Held with its right side up, there is still a way it looks. */
+/* With the right side up, the device still has a heading. */
 static void neutral_on_its_side(void **state)
 {
     (void)state;
@@ -276,7 +277,7 @@ static void down_is_where_things_fall(void **state)
     check_vector(down, 1, 0, 0, 1e-2, "down");
 }
 
-/* A second without reports, in which the device was tilted: what is felt then is believed at once. */
+/* A second without reports, during a tilt: the accelerometer is trusted at once afterwards. */
 static void after_a_gap_the_tilt_is_right(void **state)
 {
     (void)state;
@@ -288,7 +289,7 @@ static void after_a_gap_the_tilt_is_right(void **state)
     lie_still(&sensor, 0.1);
     check_pose(&sensor, 1, "the tilt");
 
-    /* One that was turning when they stopped is not turned on for hours. */
+    /* A device in rotation at the last report is not turned further for hours. */
     Orientation orientation = orientation_start();
     double turned[4];
     const double upright[3] = {0, g, 0}, fast[3] = {0, 1, 0};
@@ -332,7 +333,7 @@ static void what_is_not_finite_changes_nothing(void **state)
         }
 }
 
-/* A device in free fall, one that feels nothing, one upside down: always a pose. */
+/* A device in free fall, without readings, or upside down: always a pose. */
 static void anything_gives_a_pose(void **state)
 {
     (void)state;
@@ -340,15 +341,15 @@ static void anything_gives_a_pose(void **state)
     double time = 0;
     seed = 1;
     for (int i = 0; i < 100000; i++) {
-        double rate[3], felt[3], norm = 0, turned[4];
+        double rate[3], specific_force[3], norm = 0, turned[4];
         for (int k = 0; k < 3; k++) {
             rate[k] = i % 7 ? 100 * (uniform() - 0.5) : 0;
-            felt[k] = i % 5 ? 40 * (uniform() - 0.5) : 0;
+            specific_force[k] = i % 5 ? 40 * (uniform() - 0.5) : 0;
         }
         if (i % 11 == 0)
-            felt[X] = felt[Z] = 0, felt[Y] = -g;
+            specific_force[X] = specific_force[Z] = 0, specific_force[Y] = -g;
         time += 0.1 * (uniform() - 0.1);
-        orientation_update(&orientation, time, rate, felt);
+        orientation_update(&orientation, time, rate, specific_force);
         if (i % 1000 == 0)
             orientation_neutral(&orientation);
         orientation_turned(&orientation, turned);

@@ -2,8 +2,7 @@
 #include "tests/app/output_fixture.h"
 #include "tests/device/hid_stand_in.h"
 
-#include "app/input/device/devices.h"
-#include "app/input/device/report_log.h"
+#include "app/input/device/device.h"
 
 #include <math.h>
 
@@ -132,7 +131,7 @@ static void a_stop_does_not_wait_for_the_end(void **state)
     }
     assert_false(devices_ended(devices));
     devices_stop(devices);           /* with the last report a quarter of an hour off */
-    assert_int_equal(told_count, 1); /* the box stays where it is: nothing is told any more */
+    assert_int_equal(told_count, 1); /* the box stays in place: no further targets */
 }
 
 static void what_is_no_recording_is_refused(void **state)
@@ -177,7 +176,7 @@ static void a_replay_can_be_recorded(void **state)
     assert_true(report_log_read("a.rec", &a, &error));
     if (!report_log_read("b.rec", &b, &error))
         fail_msg("%s", error.message);
-    assert_int_equal(b.count, a.count + 2); /* those that were plugged in at the end */
+    assert_int_equal(b.count, a.count + 2); /* devices plugged in at the end */
     assert_int_equal(b.byte_count, a.byte_count);
     assert_memory_equal(a.bytes, b.bytes, a.byte_count);
     for (size_t i = 0; i < a.count; i++) {
@@ -215,7 +214,7 @@ static void what_is_plugged_in_is_recorded(void **state)
     assert_true(report_log_close(writer, &error));
     assert_true(report_log_read("a.rec", &log, &error));
     assert_true(log.devices[0].bluetooth);
-    assert_int_equal(log.count, 5); /* plugged, its calibration, and every report, the wrong one too */
+    assert_int_equal(log.count, 5); /* plugged, calibration, and every report, including the wrong report */
     assert_int_equal(log.entries[1].kind, REPORT_LOG_CALIBRATION);
     assert_memory_equal(log.bytes + log.entries[1].offset, feature.bytes, feature.size);
     assert_int_equal(log.entries[3].size, 3);

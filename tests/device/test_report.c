@@ -1,4 +1,4 @@
-/* The parsers of motion devices: which bytes they take, and what these become. */
+/* The parsers of motion devices: accepted bytes, and the resulting states. */
 #include "tests/device/report_fixture.h"
 
 #include <math.h>
@@ -103,7 +103,7 @@ static void foreign_reports_are_refused(void **state)
             if (!is_valid((ReportLayout)a, report.bytes, report.size))
                 refuses(&format, report.bytes, report.size);
         }
-    /* what a DualShock 4 and a DualSense send over Bluetooth until they are woken */
+    /* reports of a DualShock 4 and a DualSense over Bluetooth before the wake-up */
     const uint8_t small[10] = {0x01, 128, 128, 128, 128, 8};
     const ReportFormat shock = format_of(0x054c, 0x09cc, true), sense = format_of(0x054c, 0x0ce6, true);
     refuses(&shock, small, sizeof small);
@@ -131,8 +131,8 @@ static void a_wrong_checksum_is_refused(void **state)
                      0xcbf43926); /* the CRC-32's check value */
 }
 
-/* The axis of device_state.h's frame to which each axis of a cap's reports goes, and its sign; the cap's
-   frame is x to the right, y towards the user, z down. */
+/* For each axis of a cap's reports, the axis in the frame of DeviceState, with the sign. The cap's frame is
+   x to the right, y towards the user, z down. */
 static void caps_have_the_frame(void **state)
 {
     (void)state;
@@ -184,8 +184,8 @@ static void sensors_have_the_frame(void **state)
     assert_int_equal(devices, 2 * 5);
 }
 
-/* A captured report of a SpaceNavigator that is turned right side down, and others of the older layout: each
-   leaves what it does not tell. */
+/* A captured report of a SpaceNavigator turned right side down, and reports of the older layout: fields
+   without data stay unchanged. */
 static void w_has_a_report_for_each_half(void **state)
 {
     (void)state;
@@ -331,7 +331,7 @@ static uint64_t random_bits(void)
     return random_state;
 }
 
-/* A valid report in which some bytes are others, or noise of some length, or one that is cut or goes on. */
+/* A valid report with some bytes replaced, noise of some length, or a shortened or extended report. */
 static Report mutated(const Report *good)
 {
     Report report = *good;
@@ -363,7 +363,7 @@ static bool in_range(const DeviceState *state)
     return ok;
 }
 
-/* A million through each parser: what is no report changes nothing. */
+/* A million inputs through each parser: invalid reports change no state. */
 static void noise_changes_nothing(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* The calibration that a controller keeps: numbers of its sensors to rad/s and m/s2. */
+/* A controller's stored calibration: from sensor counts to rad/s and m/s2. */
 #include "tests/device/report_fixture.h"
 
 #include <math.h>
@@ -69,7 +69,7 @@ static void each_layout_has_its_own(void **state)
     assert_int_equal(layouts, 5);
 }
 
-/* A calibrated controller at rest, and one turned at the speed of its calibration. */
+/* A calibrated controller at rest, and a controller turned at the calibration speed. */
 static void reports_are_calibrated(void **state)
 {
     (void)state;
@@ -112,8 +112,7 @@ static void what_is_none_leaves_the_nominal(void **state)
     }
 }
 
-/* Numbers that no sensor has, an axis at a time: zero denominators, scales that are far off, a zero far away.
- */
+/* Impossible sensor numbers, an axis at a time: zero denominators, scales far off, a zero far away. */
 static void nonsense_is_nominal(void **state)
 {
     (void)state;

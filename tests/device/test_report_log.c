@@ -1,7 +1,7 @@
 /* Recordings of raw reports: written, read again, cut, and wrong in every way that can be told. */
 #include "tests/app/output_fixture.h"
 
-#include "app/input/device/report_log.h"
+#include "app/input/device/device.h"
 #include "slosh/world.h"
 
 #include <signal.h>
@@ -119,7 +119,7 @@ static void sizes_are_bounded(void **state)
     refuse(text, "a.rec:67: more than 64 devices");
 }
 
-/* A writer that was killed: whatever the byte, what came before the last whole line is there. */
+/* A killed writer: at any byte, all complete lines are present. */
 static void a_cut_file_is_read_as_far_as_it_is_whole(void **state)
 {
     (void)state;
@@ -148,11 +148,11 @@ static void what_is_written_is_read(void **state)
     report_log_calibration(writer, 1, calibration, sizeof calibration);
     const double now = wall_ms() / 1000;
     report_log_report(writer, 1, now + 1, report, sizeof report);
-    report_log_report(writer, 1, now, report, sizeof report); /* another thread was faster */
+    report_log_report(writer, 1, now, report, sizeof report); /* a race with a second thread */
     report_log_report(writer, 1, now, huge, sizeof huge);
-    report_log_report(writer, 0, now, report, sizeof report); /* of one too many */
+    report_log_report(writer, 0, now, report, sizeof report); /* of an extra */
     assert_int_equal(report_log_plugged(writer, device_row(0x046d, 0xc626), false), 2);
-    /* as it is before the end: a killed program leaves this */
+    /* as before the end: state after a killed program */
     assert_true(report_log_read("a.rec", &log, &error));
     assert_int_equal(log.count, 5);
     report_log_destroy(&log);

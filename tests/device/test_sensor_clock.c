@@ -1,4 +1,4 @@
-/* Reports that come late and all at once are as far apart as the device measured them. */
+/* Late reports in a burst keep the device's time intervals. */
 #include "tests/device/report_fixture.h"
 
 #include "app/input/device/device.h"
@@ -90,7 +90,7 @@ static void reports_carry_it(void **state)
     }
 }
 
-/* A quarter turn about the vertical, which nothing but the gyro tells, with a starved read in the middle. */
+/* A quarter turn about the vertical, measured by the gyro only, with a starved read in the middle. */
 static void a_starved_read_loses_no_turn(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* The table of motion devices, and what must agree with it: the udev rule, docs/devices.md. */
+/* The table of motion devices, with matching udev rule and docs/manual/devices.md. */
 #include "tests/device/report_fixture.h"
 
 #include <stdio.h>
@@ -76,12 +76,12 @@ static void the_udev_rule_names_them_all(void **state)
 static void the_page_names_them_all(void **state)
 {
     (void)state;
-    char *page = file_text(SLOSH_SOURCE_DIR "/docs/devices.md");
+    char *page = file_text(SLOSH_SOURCE_DIR "/docs/manual/devices.md");
     for (const DeviceRow *row = device_rows; row->name; row++) {
         char id[8];
         snprintf(id, sizeof id, "%04x", row->product);
         if (!strstr(page, id))
-            fail_msg("docs/devices.md lacks %s, %s", id, row->name);
+            fail_msg("docs/manual/devices.md lacks %s, %s", id, row->name);
     }
     free(page);
 }

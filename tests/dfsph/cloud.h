@@ -1,4 +1,4 @@
-/* Fluids in which methods that hold the number density are tested, and what all of them must hold. */
+/* Fluids for tests of methods with constant number density, and common checks. */
 #ifndef SLOSH_TEST_CLOUD_H
 #define SLOSH_TEST_CLOUD_H
 
@@ -66,7 +66,7 @@ static inline void check_same_bits_on_threads(WorldDef def, int steps)
     assert_true(hash[0] == hash[1] && hash[0] == hash[2] && hash[0] == hash[3]);
 }
 
-/* What a world does behind a saved state it does again from there. */
+/* After a saved state a world repeats the same steps. */
 static inline void check_goes_on(const WorldDef *def, int steps)
 {
     World *world = fixture_world(def);

@@ -6,6 +6,7 @@
 #include "sim/cpu/cpu.h"
 #include "sim/methods/dfsph/dfsph_private.h"
 #include "sim/step/world.h"
+#include "tests/dfsph/lack.h"
 
 enum { MOST = 128 };
 
@@ -71,15 +72,16 @@ static WorldDef def_of(const Case *c)
             .kind = SOLID_SPHERE, .centre = {ball[0], ball[1], ball[2]}, .radius = RADIUS, .axis = {0, 1, 0}};
     dfsph_def(&def)->tolerance = dfsph_def(&def)->divergence_tolerance = 2e-7;
     dfsph_def(&def)->iterations = 10000;
+    dfsph_def(&def)->surface_lack = 1;
     return def;
 }
 
-/* What the sums are made of, of particles where the solvers see them. push[l][i]: the force on l of k_i = 1;
-   flow: what moving boundary particles add to the rates; slope and squares: sums of F x and of F x x^T over
-   them. */
+/* Contents of the sums, of particles in the solvers' view. push[l][i]: the force on l of k_i = 1. flow:
+   the boundary particles' part of the rates. slope and squares: sums of F x and of F x x^T over boundary
+   particles; all: sums of F x over all particles. n: with the lack of a surface. */
 typedef struct System {
     int count;
-    double n[MOST], inverse_mass[MOST], flow[MOST], slope[MOST][3], squares[MOST][3][3];
+    double n[MOST], inverse_mass[MOST], flow[MOST], slope[MOST][3], squares[MOST][3][3], all[MOST][3];
     double push[MOST][MOST][3];
     double matrix[MOST][MOST], right[MOST];
 } System;
@@ -90,7 +92,7 @@ typedef struct Sums {
     const Kernel *kernel;
 } Sums;
 
-/* Of one at `other` at i: F x and W; false where it is too far. */
+/* F x and W of a particle at `other` for i; false if too far. */
 static bool pair(const Sums *sums, const double x[3], const double other[3], double slope[3], double *height)
 {
     double d[3], r2 = 0;
@@ -107,7 +109,7 @@ static bool pair(const Sums *sums, const double x[3], const double other[3], dou
     return true;
 }
 
-/* Its place behind `walls`, digits in base three: none, the lower or the upper one of each axis. */
+/* Position behind `walls`, digits in base three: none, the lower or the upper wall of each axis. */
 static void image_of(const World *world, const double x[3], int walls, double out[3])
 {
     for (int k = 0; k < 3; k++, walls /= 3) {
@@ -126,6 +128,7 @@ static void meet(System *s, const Sums *sums, double x[][3], int i, int j)
             continue;
         s->n[i] += height;
         for (int k = 0; k < 3; k++) {
+            s->all[i][k] += slope[k];
             s->push[i][i][k] += slope[k];
             s->push[i][j][k] += slope[k];
         }
@@ -144,6 +147,7 @@ static void meet_boundary(System *s, const Sums *sums, const double x[3], int i,
             continue;
         s->n[i] += height;
         for (int k = 0; k < 3; k++) {
+            s->all[i][k] += slope[k];
             s->push[i][i][k] += times * slope[k];
             s->slope[i][k] += slope[k];
             for (int m = 0; m < 3; m++)
@@ -157,8 +161,7 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* What pressure pushes particle l with, which fluid pushes with `push`: along a solid 1 / (1 - share) of it.
- */
+/* Pressure force on particle l in fluid with `push`: along a solid 1 / (1 - share) of `push`. */
 static void pushed(const System *s, const World *world, int l, const double push[3], double out[3])
 {
     const double *n = s->slope[l], square = dot(n, n), across = square > 0 ? dot(n, push) / square : 0;
@@ -190,6 +193,9 @@ static void assemble(System *s, const World *world, const Cloud *cloud, double x
         for (size_t b = 0; b < cpu->count; b++)
             if (cpu->now.fluid[b] >= FLUIDS_MAX)
                 meet_boundary(s, &sums, x[i], i, b, times);
+        for (int k = 0; k < 3; k++)
+            s->all[i][k] /= sums.scale;
+        s->n[i] += n0 * lack_at(world, s->all[i], s->n[i] / n0);
     }
     for (int i = 0; i < s->count; i++)
         for (int j = 0; j < s->count; j++)
@@ -248,7 +254,7 @@ static double left(const System *s, const double *k, int i)
     return sum;
 }
 
-/* k >= 0, nothing left where it is more, and nothing above 0 elsewhere. */
+/* k >= 0, no residual where k > 0, and no positive residual elsewhere. */
 static void project(const System *s, double *k)
 {
     double most = 1;
@@ -264,7 +270,7 @@ static void project(const System *s, double *k)
     assert_true(most <= 1e-12);
 }
 
-/* The solver's own multipliers: what they leave is as little as it says, and they are those of the dense
+/* The solver's multipliers: the residual is as small as reported, and the values equal the dense
    solution. */
 static void compare(const char *what, const Case *c, const System *s, const double *found,
                     const StepSolve *said)
@@ -290,7 +296,7 @@ static void compare(const char *what, const Case *c, const System *s, const doub
 
 /* What the solvers of a step saw and found, by id. */
 typedef struct Step {
-    double x[MOST][3];                     /* in its middle */
+    double x[MOST][3];                     /* in the middle */
     double falls[MOST][3], flown[MOST][3]; /* velocities before the solver of velocities, and behind it */
     double pressed[MOST], moved[MOST];     /* multipliers of velocities, of places */
 } Step;

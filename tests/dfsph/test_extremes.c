@@ -1,5 +1,6 @@
-/* dfsph where a solver may fail: a lid, a jet, boxes that spin and shake as fast as a hand may, one particle,
-   a tolerance that nothing reaches. Worlds are small, and the sentinel is on. */
+/* dfsph under stress: a lid, a jet, boxes at the limits of a hand, a single particle, an unreachable
+   tolerance. Worlds are small, and the sentinel is on. */
+#include "tests/lists.h"
 #include "tests/sim/fixture.h"
 
 #include "sim/methods/dfsph/dfsph.h"
@@ -75,8 +76,8 @@ static void a_jet_falls_on_the_floor(void **state)
         WorldDef def = def_in(dimensions, 1.6, 1, 0.4);
         def.spacing = 0.05;
         def.most = 2000;
-        def.fluids[0].emits[def.fluids[0].emit_count++] =
-            (Emit){.centre = {0, 0.9, 0}, .direction = {0, -1, 0}, .radius = 0.12, .speed = 2};
+        add_emit(&def.fluids[0],
+                 (Emit){.centre = {0, 0.9, 0}, .direction = {0, -1, 0}, .radius = 0.12, .speed = 2});
         World *world = fixture_world(&def);
         fixture_step(world, 300);
         State s = fixture_read(world);
@@ -96,7 +97,7 @@ static void a_jet_falls_on_the_floor(void **state)
     }
 }
 
-/* Where a hand would like the box: to and fro and around, at more than its limits let it. */
+/* Target of a hand for the box: to and fro and around, beyond the box's limits. */
 static BoxTarget wild_target(int dimensions, int step)
 {
     const double turn = 0.05 * step, side = step / 40 % 2 ? 3 : -3;
@@ -163,7 +164,7 @@ static void one_particle_falls_and_lies(void **state)
     }
 }
 
-/* A tolerance of 0 takes all the iterations that there are, says what it left, and ends. */
+/* A tolerance of 0 uses all iterations, reports the residual, and ends. */
 static void a_tolerance_of_nothing_ends(void **state)
 {
     (void)state;
@@ -184,8 +185,8 @@ static void a_tolerance_of_nothing_ends(void **state)
     }
 }
 
-/* Steps by number let themselves be long where nothing moves; without STEP_LIMIT_PRESSURE this column is
-   pressed by 29 % in the mean. */
+/* Steps by number become long in still fluid; without STEP_LIMIT_PRESSURE the column has a mean
+   compression of 29 %. */
 static void deep_fluid_at_rest_does_not_boil(void **state)
 {
     (void)state;
@@ -209,8 +210,8 @@ static void deep_fluid_at_rest_does_not_boil(void **state)
     world_destroy(world);
 }
 
-/* Friction at the end of a step damps what boils: steps are longer by the factor that follows from it. Twice
-   as long as these, 2.6 times what fluid without friction stands, still rest; 2.9 times boil. */
+/* Friction at the end of a step damps boiling: steps are longer by the derived factor. At twice the step
+   of fluid without friction 2.6 times longer steps still rest; 2.9 times boil. */
 static void thick_fluid_stands_longer_steps(void **state)
 {
     (void)state;

@@ -22,7 +22,7 @@ static void lanes_have_the_images_of_each(void **state)
     const WallsFar far = out_of_sight(&s);
     size_t found = 0;
     for (size_t i = 0; i < COUNT; i += LANES) {
-        Images images;
+        LaneImages images;
         images_of(&args, &far, i, 0, COUNT, &images);
         for (size_t lane = 0; lane < LANES; lane++) {
             WallImage one[IMAGES_MAX];

@@ -1,4 +1,4 @@
-/* dfsph next to solids: pressure there, and what a solid that is held feels of water at rest. */
+/* dfsph next to solids: pressure, and the force of water at rest on a fixed solid. */
 #include "tests/sim/fixture.h"
 
 #include "sim/cpu/cpu.h"
@@ -29,8 +29,8 @@ static double distance(const World *world, size_t i, size_t j, double d[3])
     return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
 }
 
-/* What the solver of velocities had all boundary particles push with, upwards, N: 2 k_i for whom they push.
- */
+/* Upward force of all boundary particles in the velocity solver, N: the sum of 2 k_i over the pushed
+   particles. */
 static double lift(const World *world)
 {
     const Cpu *cpu = world->state;
@@ -91,7 +91,7 @@ static Rest at_rest(const WorldDef *def)
     return rest;
 }
 
-/* Boundary particles without a multiplier make it 0.88 of that, and pressure next to the ball is off by
+/* Boundary particles without a multiplier give 0.88 of the force, and pressure next to the ball is off by
    14 %. */
 static void a_held_ball_has_the_lift_of_archimedes(void **state)
 {

@@ -1,5 +1,5 @@
-/* Fuzz target of tables over places: what is read is a full grid, and what is read off it lies between its
-   values. The last byte chooses the kind: heights where it is a newline. */
+/* Fuzz target of tables over places: a parsed table is a full grid, and interpolated values lie between
+   grid values. The last byte chooses the kind: heights if a newline. */
 #include "app/scene/import/import.h"
 
 #include <math.h>

@@ -1,9 +1,7 @@
-/* Fuzz target of meshes, but for assimp: how many triangles a file says that it has, and its places moved;
-   and of any triangles, what is wrong with them, and the distance from what is left. The first byte chooses.
- */
+/* Fuzz target of meshes, without assimp: the count of triangles in a file, and moved vertices; for any
+   triangles, mending, and the distance from the mended mesh. The first byte chooses. */
 #include "app/scene/import/import.h"
-#include "sim/mesh/distance.h"
-#include "sim/mesh/mend.h"
+#include "sim/mesh/mesh_shape.h"
 
 #include <math.h>
 #include <stdint.h>

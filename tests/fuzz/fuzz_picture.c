@@ -1,5 +1,5 @@
 /* Fuzz target of the reader of scenes in pictures. */
-#include "app/scene/scene_files.h"
+#include "app/scene/scene.h"
 
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
-/* Fuzz target of the parsers of motion devices. The first byte chooses the layout, the second a calibration
-   and whether the reports get a right checksum; then reports follow, each behind its length. What is refused
-   changes nothing, and what is taken gives finite numbers within what a sensor can say. */
+/* Fuzz target of the parsers of motion devices. The first byte chooses the layout, the second a
+   calibration and whether checksums are mended; then reports follow, each after a length. Rejected
+   reports change no state, accepted reports give finite numbers within sensor range. */
 #include "app/input/device/report.h"
 
 #include <math.h>
@@ -41,7 +41,7 @@ static void check_range(const DeviceState *state)
         must(fabs(state->angular_velocity[k]) < 72 && fabs(state->acceleration[k]) < 90);
 }
 
-/* The bytes in memory of their own length, so that a read behind them is seen. */
+/* The bytes in memory of the exact length, so that a read beyond is detected. */
 static uint8_t *copy_of(const uint8_t *bytes, size_t size)
 {
     uint8_t *copy = malloc(size ? size : 1);

@@ -1,7 +1,7 @@
 /* Fuzz target of the reader of recordings of raw reports: what it takes is in order and within its memory,
    and what it refuses it says with the line. */
+#include "app/input/device/device.h"
 #include "app/input/device/report.h"
-#include "app/input/device/report_log.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* Fuzz target of a volume's header: what is read can be used as it is, and its raw values, of which the
-   header's own bytes are taken for some, are the numbers that scale and offset say. */
+/* Fuzz target of a volume's header: accepted headers are usable. The raw values, taken partly from the
+   header's bytes, match scale and offset. */
 #include "app/scene/import/import.h"
 
 #include <math.h>

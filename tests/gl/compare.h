@@ -6,7 +6,7 @@
 #include "tests/sim/fixture.h"
 
 #include "app/scene/scene.h"
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 #include "sim/step/world.h"
 
 static inline int compare_setup(void **state)
@@ -40,7 +40,7 @@ static inline WorldInfo info_of(World *world)
     return info;
 }
 
-/* What a shipped scene says, coarser but for its steps. */
+/* A shipped scene, coarser with the same steps. */
 static inline WorldDef scene_def(const char *name, double spacing)
 {
     SceneSettings settings = {0};
@@ -99,7 +99,7 @@ static inline int who_before(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* What world_read gives of ids that may have gaps. */
+/* Output of world_read for ids with gaps. */
 typedef struct Snapshot {
     size_t count;
     Who *who;                                 /* in the order of their ids */
@@ -155,7 +155,7 @@ static inline double apart(const float *a, const float *b)
                 pow((double)a[2] - (double)b[2], 2));
 }
 
-/* Kinetic energy and that of height, which the floor of the box has none of. */
+/* Kinetic energy and potential energy of height above the box's floor. */
 static inline double energy_of(const WorldDef *def, const WorldSums *sums)
 {
     return sums->kinetic_energy - sums->mass * def->gravity[1] * sums->centre[1];
@@ -180,7 +180,7 @@ static inline double front_of(World *world)
 }
 
 typedef struct Drifted {
-    double centre, energy, kinetic, front; /* of the box, of itself, of itself, of the box's width */
+    double centre, energy, kinetic, front; /* of the box, of the value, of the value, of the box's width */
 } Drifted;
 
 static inline Drifted drifted(const WorldDef *def, World *from, World *to)
@@ -211,9 +211,9 @@ static inline void copy_nearly(World *from, World *to)
     world_state_free(&saved);
 }
 
-/* Both go on for so many steps from the same state: centre of mass and the front of 99 % within 1 % of the
-   box, energy within 1 %. What one bit more makes of the CPU's own run is printed beside it: less than that
-   nobody can ask for. */
+/* Two worlds continue for some steps from the same state. Centre of mass and the front of 99 % stay
+   within 1 % of the box, energy within 1 %. The effect of a changed bit in the CPU's run is printed as a
+   lower limit. */
 static inline void compare_run(const WorldDef *def, const char *what, World *cpu, World *gpu, int steps)
 {
     World *near = world_on(*def, "cpu");
@@ -258,7 +258,7 @@ static inline double least_clearance(World *world, const WorldDef *def)
     return least;
 }
 
-/* What one step of each made of the same state. */
+/* Result of a step of each from the same state. */
 typedef struct StepOff {
     Worst density, velocity; /* of rest density; m/s */
     double thickened, sped;  /* the greatest changes: of rest density; m/s */
@@ -286,9 +286,9 @@ static inline StepOff step_off(const Snapshot *before, const Snapshot *a, const 
     return off;
 }
 
-/* One step of both, which are in the same state: density within 1e-5 of rest density, and where particles
-   carry it within 3e-5 and 1e-3 of the greatest change, since the cpu's lists lack boundary particles that
-   came nearer than h in half a drift; the change of velocity within 1e-4 of the greatest. */
+/* A step of two worlds in the same state: density within 1e-5 of rest density. Carried densities within
+   3e-5 and 1e-3 of the greatest change: the cpu's lists lack boundary particles that came nearer than h
+   in half a drift. Velocity changes within 1e-4 of the greatest. */
 static inline void compare_one_step(const char *what, World *cpu, World *gpu)
 {
     Snapshot before = snapshot_read(cpu);

@@ -1,6 +1,5 @@
-/* What a draw or a dispatch reads must be there: software drivers read zeros where nothing is bound, others
-   what another block has. draw_check_install looks before each of them; complaints are printed and counted.
- */
+/* Inputs of a draw or dispatch must be bound: with missing bindings software drivers read zeros, or a
+   different block. draw_check_install checks before each call; complaints are printed and counted. */
 #ifndef SLOSH_DRAW_CHECK_H
 #define SLOSH_DRAW_CHECK_H
 
@@ -74,8 +73,8 @@ static inline bool draw_check_attached(GLint texture, GLenum attachment)
     return type == GL_TEXTURE && name == texture;
 }
 
-/* Whether what runs now may change the texture that it samples, or samples what is being drawn into. Behind a
-   texture barrier a pass over the screen may read the texels that it writes. */
+/* True if the program may write the texture being sampled, or samples the texture being drawn. After a
+   texture barrier a pass over the screen may read the written texels. */
 static inline bool draw_check_fed_back(GLint texture, bool draws)
 {
     GLboolean depth = GL_FALSE;
@@ -87,7 +86,7 @@ static inline bool draw_check_fed_back(GLint texture, bool draws)
            (!draws || (depth && glIsEnabled(GL_DEPTH_TEST) && !draw_check_barrier));
 }
 
-/* The texture that a sampler or an image of that type has at its unit; -1: it is neither. */
+/* The texture at the unit of a sampler or image of the type; -1: neither kind. */
 static inline GLint draw_check_texture(GLint type, GLint unit)
 {
     GLint texture = -1, unit_was = 0;
@@ -102,8 +101,7 @@ static inline GLint draw_check_texture(GLint type, GLint unit)
     return texture;
 }
 
-/* Depths that are read as they are, not compared, between texels: few formats are filtered on all hardware.
- */
+/* Depths read as values, without comparison, between texels: few formats are filtered on all hardware. */
 static inline bool draw_check_filters_depth(GLint type, GLuint texture)
 {
     GLint bits = 0, compare = GL_NONE, filter = GL_NEAREST;
@@ -182,8 +180,8 @@ static void APIENTRY draw_checked_glTextureBarrier(void)
     draw_check_glTextureBarrier();
 }
 
-/* What the program calls goes through libepoxy's pointers; those before their first call are not the
- * driver's. */
+/* The program's calls go through libepoxy's pointers; before the first call a pointer is not the
+   driver's. */
 static inline void draw_check_install(void)
 {
 #define PUT(name)                                                                                            \

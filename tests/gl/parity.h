@@ -1,13 +1,15 @@
-/* Two worlds in step: what a backend on the GPU makes of a state against what `cpu` makes of it. */
+/* Two worlds in step: a GPU backend's steps against `cpu` from the same state. */
 #ifndef SLOSH_PARITY_H
 #define SLOSH_PARITY_H
 
 #include "tests/gl/compare.h"
+#include "tests/lists.h"
 
+#include "sim/methods/mueller/mueller.h"
 #include "sim/methods/wcsph/wcsph_private.h"
 #include "sim/step/world.h"
 
-/* Two viscous fluids over each other, stirred, in a box that moves in all ways. */
+/* Two viscous fluids in layers, stirred, in a box with all kinds of motion. */
 static inline WorldDef stirred_def(int dimensions)
 {
     WorldDef def = fixture_def(1.2, 1, 0.9);
@@ -21,11 +23,16 @@ static inline WorldDef stirred_def(int dimensions)
     def.fluids[1] = (FluidDef){.name = "oil", .density = 700, .viscosity = 3};
     fixture_block(&def, 0, -0.6, 0, -0.45, 0.1, 0.4, 0.45);
     fixture_block(&def, 1, -0.6, 0.4, -0.45, 0.3, 0.6, 0.45);
-    def.motions[def.motion_count++] =
-        (Motion){.kind = MOTION_SHAKE, .axis = {1, 0.3, 0}, .amplitude = 0.05, .frequency = 2};
-    def.motions[def.motion_count++] =
-        (Motion){.kind = MOTION_ROCK, .axis = {0, 0, 1}, .angle_deg = 20, .frequency = 1.5};
+    add_motion(&def, (Motion){.kind = MOTION_SHAKE, .axis = {1, 0.3, 0}, .amplitude = 0.05, .frequency = 2});
+    add_motion(&def, (Motion){.kind = MOTION_ROCK, .axis = {0, 0, 1}, .angle_deg = 20, .frequency = 1.5});
     return def;
+}
+
+/* The kernel and the support that mueller has by default in the plane with several fluids. */
+static inline void for_layers(WorldDef *def)
+{
+    snprintf(mueller_def(def)->density_kernel, NAME_SIZE, "quintic");
+    def->support = 3;
 }
 
 /* How much of p_i V_i^2 a pair takes: 1, but for the contrast of sim/methods/wcsph/pairs_surface.c. */
@@ -68,7 +75,7 @@ static inline double pair_terms(const Constants *s, const State *state, size_t i
                                 fabs(dims * h * h - (dims + 4) * r * r));
 }
 
-/* The sum of these and of its weight over its mass, m/s2. */
+/* The sum of the accelerations and of weight over mass, m/s2. */
 static inline double scale_of(const Constants *s, const State *state, size_t i)
 {
     double sum = 0;
@@ -124,8 +131,8 @@ static inline Worst compare_rates(World *cpu, World *gpu, const float *before, c
     return worst;
 }
 
-/* One step of both: density within 1e-5 of rest, acceleration within 1e-4 of the sum of the magnitudes of the
-   pair terms. */
+/* A step of two worlds: density within 1e-5 of rest, acceleration within 1e-4 of the sum of the
+   magnitudes of the pair terms. */
 static inline void compare_step(const char *label, World *cpu, World *gpu)
 {
     float *before = compressions(cpu);

@@ -1,5 +1,4 @@
-/* A table of scenes whose steps a backend on the GPU must make as `cpu` does; the tests are tables of these.
- */
+/* A table of scenes for comparing a GPU backend's steps with `cpu`; the tests are tables of scenes. */
 #ifndef SLOSH_PARITY_CASE_H
 #define SLOSH_PARITY_CASE_H
 
@@ -16,10 +15,10 @@ typedef struct ParityCase {
     double support, viscosity[2];
     TensionModel tension;
     bool negative, no_slip, solids;
-    const char *sides; /* periodic ones */
+    const char *sides; /* periodic sides */
     double lid, dt;    /* dt: s; 0: the table's */
     const char *kernel;
-    double delta, artificial, shifting; /* of wcsph, as `kernel` */
+    double delta, artificial, shifting; /* of wcsph, as `kernel`, mueller's too */
     ViscosityForm form;
     bool corrected;
     double light;       /* density of the second fluid, kg/m3; 0: stirred_def's */
@@ -31,21 +30,22 @@ typedef struct ParityCase {
 typedef struct ParityTable {
     const char *method;
     double dt;
-    int steps; /* before what is compared */
+    int steps; /* before the comparison */
     int count;
     const ParityCase *cases;
 } ParityTable;
 
-/* One that holds what passes and moves, one that lets it slip. */
+/* A no-slip solid, and a slip solid. */
 static inline void parity_solids(WorldDef *def)
 {
+    static const Motion shake = {.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.03, .frequency = 3};
     def->solids[def->solid_count++] = (SolidDef){
         .kind = SOLID_BOX,
         .centre = {0.15, 0.25, 0},
         .size = {0.1, 0.4, 0.5},
         .slip = SLIP_NONE,
         .motion_count = 1,
-        .motions = {{.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.03, .frequency = 3}},
+        .motions = &shake,
     };
     def->solids[def->solid_count++] =
         (SolidDef){.kind = SOLID_SPHERE, .centre = {-0.3, 0.2, 0}, .radius = 0.15};
@@ -54,7 +54,9 @@ static inline void parity_solids(WorldDef *def)
 static inline void parity_settings(const ParityCase *c, WorldDef *def)
 {
     WcsphDef *wcsph = wcsph_def(def);
-    if (c->kernel)
+    if (c->kernel && c->method && strcmp(c->method, "mueller") == 0)
+        snprintf(mueller_def(def)->density_kernel, NAME_SIZE, "%s", c->kernel);
+    else if (c->kernel)
         snprintf(wcsph->kernel, sizeof wcsph->kernel, "%s", c->kernel);
     wcsph->delta_sph = c->delta;
     wcsph->artificial_viscosity = c->artificial;

@@ -39,7 +39,7 @@
           CONSTANT(box_whole), CONSTANT(cell_fold)),                                                         \
         BLOCK("sim/step_block.h", StepBlock, STEP(rotation[0]), STEP(omega0), STEP(drift_dt), STEP(omega1),  \
               STEP(still), STEP(shift), STEP(velocity_change), STEP(gravity), STEP(kick_dt),                 \
-              STEP(felt_origin), STEP(felt_alpha), STEP(felt_omega), STEP(kick_gravity)),                    \
+              STEP(apparent_origin), STEP(apparent_alpha), STEP(apparent_omega), STEP(kick_gravity)),        \
         BLOCK("sim/term_block.h", TermBlock, TERM(colour_scale), TERM(drag_range), TERM(friction_scale),     \
               TERM(curvature_least), TERM(curvature_whole), TERM(curvature_full), TERM(curvature_few),       \
               TERM(curvature_crowd), TERM(curvature_crowd_least), TERM(curvature_offset),                    \
@@ -51,7 +51,8 @@
               WCSPH(corrected_gradient), WCSPH(any_artificial), WCSPH(wcsph_fluids[0].tait),                 \
               WCSPH(wcsph_fluids[0].artificial_viscosity), WCSPH(wcsph_fluids[7].artificial_viscosity)),     \
         BLOCK("sim/dfsph/dfsph_block.h", DfsphBlock, DFSPH(gradient), DFSPH(friction_gradient),              \
-              DFSPH(relaxation), DFSPH(pressure_of_term), DFSPH(least_squares)),                             \
+              DFSPH(relaxation), DFSPH(pressure_of_term), DFSPH(least_squares), DFSPH(surface_lack),         \
+              DFSPH(surface_slope)),                                                                         \
         BLOCK("sim/pbf/pbf_block.h", PbfBlock, PBF(gradient), PBF(friction_gradient), PBF(relaxation),       \
               PBF(least_squares), PBF(pressure_of_term), PBF(viscous_dt), PBF(settle_rate)),                 \
         BLOCK("sim/watch_block.h", WatchBlock, WATCH(greatest_speed2), WATCH(greatest_acceleration2),        \

@@ -1,9 +1,9 @@
-/* The acceleration that a world keeps of its particles, on both backends that have it: against what free
-   flight and rest say, against the velocities before and behind a step, over saved states, and as pictures
-   get it. */
+/* The acceleration kept by a world, on each backend with support: against free flight and rest, against
+   velocities before and after a step, over saved states, and in pictures. */
 #include "tests/gl/compare.h"
+#include "tests/lists.h"
 
-#include "render/particles/derived.h"
+#include "render/particles/particles.h"
 #include "slosh/state.h"
 
 static const char *const backends[] = {"cpu", "compute"};
@@ -46,7 +46,7 @@ static WorldDef def_of(const char *backend, const char *method)
     return def;
 }
 
-/* Particles that see nobody. */
+/* Particles without neighbours. */
 static const float places[] = {-0.5F, 1, 0, 0.5F, 1.2F, 0, 0, 1.5F, 0.5F};
 static const InitialState lone = {.count = 3, .position = places};
 
@@ -80,8 +80,7 @@ static void what_rests_in_a_turning_box_flies_outwards(void **state)
         def.initial = &lone;
         def.gravity[1] = 0;
         def.dt = 1e-4;
-        def.motion_count = 1;
-        def.motions[0] = (Motion){.kind = MOTION_SPIN, .axis = {0, 0, 1}, .rate = 0.5};
+        add_motion(&def, (Motion){.kind = MOTION_SPIN, .axis = {0, 0, 1}, .rate = 0.5});
         World *world = fixture_world(&def);
         fixture_step(world, 1);
         const WorldInfo info = info_of(world);
@@ -90,7 +89,7 @@ static void what_rests_in_a_turning_box_flies_outwards(void **state)
         float *a = accelerations(world, &count);
         for (size_t i = 0; i < count; i++) {
             const double x = (double)places[3 * i],
-                         y = (double)places[3 * i + 1] - 1; /* it turns about its centre */
+                         y = (double)places[3 * i + 1] - 1; /* turns about the centre */
             assert_true(fabs((double)a[3 * i] - w * w * x) < 2e-3 * w * w);
             assert_true(fabs((double)a[3 * i + 1] - w * w * y) < 2e-3 * w * w);
             assert_true(fabsf(a[3 * i + 2]) < 1e-4F);
@@ -109,8 +108,7 @@ static WorldDef tank(const char *backend, const char *method)
     def.sound_speed = 20;
     def.dt = 0.001;
     fixture_block(&def, 0, -0.2, 0, -0.2, 0, 0.4, 0.2);
-    def.motion_count = 1;
-    def.motions[0] = (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.05, .frequency = 1};
+    add_motion(&def, (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.05, .frequency = 1});
     return def;
 }
 
@@ -150,7 +148,7 @@ static void what_rests_has_none(void **state)
         WorldDef def = tank("cpu", fixture_method_names[m]);
         size_t count;
         double sum = 0;
-        def.fluids[0].fills[0].max[0] = 0.2;
+        own_fills(&def.fluids[0])->max[0] = 0.2;
         def.fluids[0].start = START_HYDROSTATIC;
         def.motion_count = 0;
         World *world = fixture_world(&def);
@@ -175,8 +173,8 @@ static void same_accelerations(World *one, World *other)
     free(b);
 }
 
-/* What a state has goes on with it, and what it lacks is not known before the next step; bits of particles do
-   not depend on who looks. */
+/* Columns of a saved state continue; missing columns are unknown before the next step. Bits of particles
+   do not depend on observers. */
 static void states_have_it(void **state)
 {
     (void)state;
@@ -212,8 +210,8 @@ static void states_have_it(void **state)
     }
 }
 
-/* Asked for within a frame whose steps are too long: on a GPU nobody has looked yet, and the sentinel goes
-   back to where the frame began. */
+/* Requested within a frame of too long steps: a GPU's trouble is still undetected, and the sentinel goes
+   back to the frame's begin. */
 static void a_state_in_trouble_is_not_gone_back_to(void **state)
 {
     (void)state;
@@ -241,12 +239,13 @@ static void read_back(const ParticleAttribute *from, size_t count, float *to)
     glGetNamedBufferSubData(from->buffer, (GLintptr)from->offset, (GLsizeiptr)(count * from->stride), to);
 }
 
-/* Its length and its components are of one particle, and are those that are read. */
+/* Length and components belong to the same particle, and equal the values read. */
 static void pictures_get_it(void **state)
 {
     (void)state;
-    const ParticleWants wants = {SCALAR_BIT(SCALAR_ACCELERATION), VECTOR_BIT(VECTOR_ACCELERATION),
-                                 PARTICLE_ID};
+    const ParticleWants wants = {.scalars = SCALAR_BIT(SCALAR_ACCELERATION),
+                                 .vectors = VECTOR_BIT(VECTOR_ACCELERATION),
+                                 .attributes = PARTICLE_ID};
     const DerivedSpace space = {.flat = false};
     const WorldDef def = tank("compute", "dfsph");
     Error error = {{0}};

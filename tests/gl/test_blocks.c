@@ -1,4 +1,4 @@
-/* The blocks that C and GLSL share: each member has the offset in C that the driver gives it. */
+/* Blocks shared by C and GLSL: each member's offset in C is the driver's. */
 #include "tests/gl/compare.h"
 #include "tests/gl/solver_blocks.h"
 
@@ -7,7 +7,7 @@
 #include "shaders/shared/solid_block.h"
 #include "shaders/volume/raycast_block.h"
 #include "shaders/volume/volume_block.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <stddef.h>
@@ -115,7 +115,7 @@ static const Member *find_member(const Block *block, const char *name)
     return NULL;
 }
 
-/* The number of members of the table that the driver knows; all others than it knows are wrong. */
+/* The number of the table's members known to the driver; all further members of the driver are errors. */
 static size_t compare_members(const Block *block, GLuint program, GLuint resource)
 {
     enum { VARIABLES_MAX = 256 };

@@ -1,10 +1,10 @@
-/* Known flows on backend compute where a step is too long: the world goes back, and what it then leaves
-   behind is no part of what is measured. */
+/* Known flows on backend compute with a too long step: the world goes back, and the discarded part is not
+   measured. */
 #include "tests/sim/fixture.h"
 
 #include "app/bench/cases/case.h"
 #include "app/run/offscreen.h"
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 
 static Headless *context;
 
@@ -45,7 +45,7 @@ static void samples_are_of_sound_states(void **state)
     for (size_t i = 1; i < axis->count; i++) {
         const double *was = axis->at[i - 1], *is = axis->at[i];
         const double rate = fabs(is[1] - was[1]) / (is[0] - was[0]);
-        if (!(is[0] > was[0] && rate < 2000)) /* what breaks draws it in by up to some hundred m/s */
+        if (!(is[0] > was[0] && rate < 2000)) /* breakage draws fluid in by up to some hundred m/s */
             fail_msg("from %g s to %g s the axis changes by %g m/s", was[0], is[0], rate);
     }
     case_result_free(&result);

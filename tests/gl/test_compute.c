@@ -1,5 +1,6 @@
 /* The backend `compute` against `cpu`, from the same states. */
 #include "tests/gl/parity.h"
+#include "tests/lists.h"
 
 #include "sim/gpu/compute/compute.h"
 
@@ -11,6 +12,8 @@ static void steps_are_those_of_the_cpu(void **state)
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
         WorldDef def = stirred_def(dimensions);
         def.reproducible = dimensions == 3;
+        if (dimensions == 2)
+            for_layers(&def);
         World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
         fixture_step(cpu, 150);
         copy_state(cpu, gpu);
@@ -41,8 +44,7 @@ static void prefix_sums(void **state)
     def.box_size[0] = def.box_size[1] =
         60; /* with places for so many, room for the largest in its block totals */
     def.most = 300000;
-    def.fluids[0].emit_count = 1;
-    def.fluids[0].emits[0] = (Emit){.centre = {0, 30}, .direction = {0, -1}, .radius = 0.1, .speed = 1};
+    add_emit(&def.fluids[0], (Emit){.centre = {0, 30}, .direction = {0, -1}, .radius = 0.1, .speed = 1});
     def.gravity[1] = 0;
     World *world = world_on(def, "compute");
     Compute *compute = world->state;
@@ -69,7 +71,7 @@ static void prefix_sums(void **state)
     world_destroy(world);
 }
 
-/* Ids in the order in which the backend has sorted them, and the density of each; the caller frees them. */
+/* Ids in the backend's sorted order, with densities; freed by the caller. */
 static float *sorted(World *world, uint32_t **id)
 {
     const size_t n = info_of(world).count;
@@ -128,14 +130,14 @@ static void reverse(World *world)
     world_state_free(&saved);
 }
 
-/* So many particles at random places of a cube of that width, sorted by both, from two orders and after a
- * step. */
+/* A number of particles at random places in a cube, sorted by each backend, from two orders and after a
+   step. */
 static void compare_sort(size_t count, double width)
 {
     float *x = malloc(12 * count);
     uint32_t seed = (uint32_t)count;
     const double side =
-        fmax(0.3, width + 0.01); /* where cells shared places, both would sort them by other keys */
+        fmax(0.3, width + 0.01); /* in shared cells, the two backends would sort by different keys */
     WorldDef def = fixture_def(side, side, side);
     *world_threads(&def) = 1;
     def.dt = 1e-6;
@@ -154,7 +156,7 @@ static void compare_sort(size_t count, double width)
     free(x);
 }
 
-/* Numbers about those of a group of threads, all in one cell of 0.21 m and not. */
+/* Counts around a thread group's size, all in a cell of 0.21 m or spread. */
 static void it_sorts_as_the_cpu_does(void **state)
 {
     (void)state;
@@ -165,15 +167,15 @@ static void it_sorts_as_the_cpu_does(void **state)
     }
 }
 
-/* A world that has drained away goes on, and fluid comes into it as into any. */
+/* A drained world continues, and accepts new fluid. */
 static void no_particle_at_all(void **state)
 {
     (void)state;
     WorldDef def = fixture_def(2, 1, 1);
     fixture_block(&def, 0, -1, 0, -0.5, -0.5, 0.5, 0.5);
-    def.fluids[0].emits[def.fluids[0].emit_count++] =
-        (Emit){.centre = {0, 0.5, 0}, .direction = {1, 0, 0}, .radius = 0.2, .speed = 2, .start = 0.02};
-    def.drains[def.drain_count++] = (Fill){.kind = FILL_BLOCK, .min = {-1, 0, -0.5}, .max = {-0.25, 1, 0.5}};
+    add_emit(&def.fluids[0],
+             (Emit){.centre = {0, 0.5, 0}, .direction = {1, 0, 0}, .radius = 0.2, .speed = 2, .start = 0.02});
+    add_drain(&def, (Fill){.kind = FILL_BLOCK, .min = {-1, 0, -0.5}, .max = {-0.25, 1, 0.5}});
     def.most = 1000;
     *world_threads(&def) = 1;
     World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
@@ -211,7 +213,7 @@ static void gauges_are_those_of_the_cpu(void **state)
     World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
     fixture_step(cpu, 20);
     copy_state(cpu, gpu);
-    copy_state(cpu, cpu); /* its densities are of those places then */
+    copy_state(cpu, cpu); /* densities belong to the old places */
     const WorldGauge is = gauge_of(gpu), wanted = gauge_of(cpu);
     assert_true(wanted.kinetic_energy > 0 && wanted.density_error_max > 0);
     assert_float_equal(is.kinetic_energy / wanted.kinetic_energy, 1, 1e-4);
@@ -233,7 +235,7 @@ static void the_fastest_is_found(void **state)
     memset(def.gravity, 0, sizeof def.gravity);
     def.initial = &(InitialState){.count = ROW, .position = x, .velocity = v};
     for (int fastest = 5; fastest < ROW; fastest += 20) {
-        for (int i = 0; i < ROW; i++) { /* alone, each in a cell of its own, in the order of these */
+        for (int i = 0; i < ROW; i++) { /* alone, each in a separate cell, in cell order */
             x[3 * i] = (float)(0.3 * (i + 0.5 - 0.5 * ROW));
             x[3 * i + 1] = 0.5F;
             v[3 * i + 1] = i == fastest ? 2 : 1;
@@ -255,8 +257,7 @@ static void what_it_cannot_do_is_said(void **state)
     WorldDef def = stirred_def(2);
     Error error = {0};
     def.most = 40000000; /* with places for so many, more than 512 MiB; llvmpipe allows 128 */
-    def.fluids[0].emit_count = 1;
-    def.fluids[0].emits[0] = (Emit){.centre = {0, 1}, .direction = {0, -1}, .radius = 0.1, .speed = 1};
+    add_emit(&def.fluids[0], (Emit){.centre = {0, 1}, .direction = {0, -1}, .radius = 0.1, .speed = 1});
     snprintf(def.backend, sizeof def.backend, "compute");
     GLint64 most = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);

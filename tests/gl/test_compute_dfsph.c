@@ -1,4 +1,4 @@
-/* The backend `compute` against `cpu`: dfsph, its solvers' iterations among it. */
+/* The backend `compute` against `cpu`: dfsph with the solvers' iterations. */
 #include "tests/gl/parity_case.h"
 
 /* clang-format off */

@@ -1,14 +1,14 @@
 /* Emitters and drains on the backend `compute` against `cpu`. */
 #include "tests/gl/compare.h"
+#include "tests/lists.h"
 
 #include "sim/flow/flow.h"
-#include "sim/start/fill.h"
-#include "sim/start/seed.h"
+#include "sim/start/start.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
-/* A jet that falls into a tray with a drain beside it; two fluids, a solid that moves, a box that moves. */
+/* A jet falling into a tray beside a drain; two fluids, a moving solid, a moving box. */
 static WorldDef jet_def(int dimensions)
 {
     WorldDef def = fixture_def(1.2, 0.9, 0.8);
@@ -22,20 +22,21 @@ static WorldDef jet_def(int dimensions)
     def.fluids[0].viscosity = 1;
     def.fluids[1] = (FluidDef){.name = "oil", .density = 800, .viscosity = 3};
     fixture_block(&def, 0, -0.6, 0, -0.4, 0.6, 0.2, 0.4);
-    def.fluids[1].emits[def.fluids[1].emit_count++] = (Emit){
-        .centre = {-0.2, 0.8, 0}, .direction = {0.3, -1, 0}, .radius = 0.135, .speed = 2, .start = 0.05};
-    def.drains[def.drain_count++] = (Fill){.kind = FILL_BLOCK, .min = {0.4, 0, -0.4}, .max = {0.6, 0.2, 0.4}};
-    def.drains[def.drain_count++] = (Fill){.kind = FILL_BALL, .centre = {-0.5, 0.1, 0}, .radius = 0.08};
-    def.motions[def.motion_count++] =
-        (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.05, .frequency = 2};
+    add_emit(
+        &def.fluids[1],
+        (Emit){
+            .centre = {-0.2, 0.8, 0}, .direction = {0.3, -1, 0}, .radius = 0.135, .speed = 2, .start = 0.05});
+    add_drain(&def, (Fill){.kind = FILL_BLOCK, .min = {0.4, 0, -0.4}, .max = {0.6, 0.2, 0.4}});
+    add_drain(&def, (Fill){.kind = FILL_BALL, .centre = {-0.5, 0.1, 0}, .radius = 0.08});
+    add_motion(&def, (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.05, .frequency = 2});
     SolidDef *ball = &def.solids[def.solid_count++];
     *ball = (SolidDef){.kind = SOLID_SPHERE, .centre = {0, 0.3, 0}, .radius = 0.15, .slip = SLIP_NONE};
-    ball->motions[ball->motion_count++] =
-        (Motion){.kind = MOTION_SHAKE, .axis = {0, 1, 0}, .amplitude = 0.1, .frequency = 3};
+    add_solid_motion(ball,
+                     (Motion){.kind = MOTION_SHAKE, .axis = {0, 1, 0}, .amplitude = 0.1, .frequency = 3});
     return def;
 }
 
-/* The same particles in both, by their ids. */
+/* The same particles in each world, by ids. */
 static void same_ids(World *a, World *b)
 {
     Snapshot x = snapshot_read(a), y = snapshot_read(b);
@@ -47,7 +48,7 @@ static void same_ids(World *a, World *b)
     snapshot_free(&y);
 }
 
-/* A jet that falls into drains, without a splash: nothing in it makes more of the last bit. */
+/* A jet falling into drains without a splash: rounding errors do not grow. */
 static WorldDef fountain_def(int dimensions)
 {
     WorldDef def = fixture_def(1.2, 0.8, 0.8);
@@ -59,11 +60,10 @@ static WorldDef fountain_def(int dimensions)
     def.most = 2000;
     def.gravity[1] = -6;
     def.fluids[0].viscosity = 10;
-    def.fluids[0].emits[def.fluids[0].emit_count++] =
-        (Emit){.centre = {-0.4, 0.4, 0}, .direction = {1, 0.3, 0}, .radius = 0.11, .speed = 2};
-    def.drains[def.drain_count++] =
-        (Fill){.kind = FILL_BLOCK, .min = {-0.6, 0, -0.4}, .max = {0.6, 0.2, 0.4}};
-    def.drains[def.drain_count++] = (Fill){.kind = FILL_BLOCK, .min = {0.3, 0, -0.4}, .max = {0.6, 0.8, 0.4}};
+    add_emit(&def.fluids[0],
+             (Emit){.centre = {-0.4, 0.4, 0}, .direction = {1, 0.3, 0}, .radius = 0.11, .speed = 2});
+    add_drain(&def, (Fill){.kind = FILL_BLOCK, .min = {-0.6, 0, -0.4}, .max = {0.6, 0.2, 0.4}});
+    add_drain(&def, (Fill){.kind = FILL_BLOCK, .min = {0.3, 0, -0.4}, .max = {0.6, 0.8, 0.4}});
     return def;
 }
 
@@ -150,8 +150,8 @@ static WorldDef free_jet_def(void)
     def.gravity[1] = 0;
     def.sound_speed = 20;
     def.most = 4000;
-    def.fluids[0].emits[def.fluids[0].emit_count++] =
-        (Emit){.centre = {-1.8, 0.5, 0}, .direction = {1, 0, 0}, .radius = 0.2, .speed = 2};
+    add_emit(&def.fluids[0],
+             (Emit){.centre = {-1.8, 0.5, 0}, .direction = {1, 0, 0}, .radius = 0.2, .speed = 2});
     return def;
 }
 
@@ -165,7 +165,7 @@ static void the_bound_holds(void **state)
     substeps(world, 200);
     assert_true(info_of(world).count == 300 && info_of(world).emitted == 300 && info_of(world).full);
     world_destroy(world);
-    def.drains[def.drain_count++] = (Fill){.kind = FILL_BALL, .centre = {-1.3, 0.5, 0}, .radius = 0.4};
+    add_drain(&def, (Fill){.kind = FILL_BALL, .centre = {-1.3, 0.5, 0}, .radius = 0.4});
     world = world_on(def, "compute");
     for (int i = 0; i < 300; i++) {
         substeps(world, 1);
@@ -182,15 +182,14 @@ static void the_bound_holds(void **state)
     world_destroy(world);
 }
 
-/* Two disks in one place give one particle where two have no room; nor does one come where a solid is. */
+/* Two disks at the same place give a single particle where two lack space; no particle starts inside a
+   solid. */
 static void nothing_comes_where_something_is(void **state)
 {
     (void)state;
     WorldDef def = free_jet_def();
-    def.fluids[0].emits[1] = def.fluids[0].emits[0];
-    def.fluids[0].emits[1].direction[0] = -1;
-    def.fluids[0].emits[0].centre[0] = def.fluids[0].emits[1].centre[0] = 0;
-    def.fluids[0].emit_count = 2;
+    own_emits(&def.fluids[0])->centre[0] = 0;
+    add_emit(&def.fluids[0], def.fluids[0].emits[0])->direction[0] = -1;
     World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
     substeps(cpu, 3);
     substeps(gpu, 3);
@@ -216,8 +215,8 @@ static void a_wide_layer_comes_in_parts(void **state)
     def.spacing = 0.05;
     def.gravity[1] = 0;
     def.most = 6000;
-    def.fluids[0].emits[def.fluids[0].emit_count++] =
-        (Emit){.centre = {0, 0.25, 0}, .direction = {0, 1, 0}, .radius = 1.95, .speed = 1};
+    add_emit(&def.fluids[0],
+             (Emit){.centre = {0, 0.25, 0}, .direction = {0, 1, 0}, .radius = 1.95, .speed = 1});
     World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
     substeps(cpu, 1);
     substeps(gpu, 1);
@@ -227,7 +226,8 @@ static void a_wide_layer_comes_in_parts(void **state)
     world_destroy(gpu);
 }
 
-/* From cpu to compute, further, back, further: as on one; into a world that holds more, or fewer. */
+/* From cpu to compute, steps, back, steps: equal to a single backend; into worlds with more or fewer
+   particles. */
 static void the_state_goes_to_and_fro(void **state)
 {
     (void)state;
@@ -275,8 +275,8 @@ static void going_back_takes_back_what_came(void **state)
     world_destroy(world);
 }
 
-/* A step far too long in a frame of many: the watch trips in its first ones, and the drains go on until the
- * frame is over. */
+/* A far too long step in a frame of many: the watch trips early, and drains continue until the frame
+   ends. */
 static WorldDef boiling_def(int retries)
 {
     WorldDef def = fixture_def(1.2, 0.9, 0.8);
@@ -286,11 +286,11 @@ static WorldDef boiling_def(int retries)
     def.dt = 0.8;
     def.substeps = 8;
     fixture_block(&def, 0, -0.6, 0, -0.4, 0.6, 0.8, 0.4);
-    def.drains[def.drain_count++] = (Fill){.kind = FILL_BLOCK, .min = {0.4, 0, -0.4}, .max = {0.6, 0.2, 0.4}};
+    add_drain(&def, (Fill){.kind = FILL_BLOCK, .min = {0.4, 0, -0.4}, .max = {0.6, 0.2, 0.4}});
     return def;
 }
 
-/* As many as there were, less those that went, each of them once. */
+/* The old particles minus the removed particles, each exactly once. */
 static void assert_counted(World *world, size_t initial)
 {
     const WorldInfo info = info_of(world);
@@ -354,7 +354,7 @@ static size_t read_by_steps(const WorldDef *def, int steps)
     return bytes_read;
 }
 
-/* Four bytes a layer and four a draining; nothing without these. */
+/* Four bytes per layer and four per draining; zero without flows. */
 static void only_counts_are_read_back(void **state)
 {
     (void)state;

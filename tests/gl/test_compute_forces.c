@@ -1,12 +1,13 @@
 /* What box and solids feel on the backend `compute` against `cpu`, from the same states. */
 #include "tests/gl/compare.h"
+#include "tests/lists.h"
 
 #include "sim/gpu/compute/compute.h"
 #include "sim/methods/wcsph/wcsph.h"
 
 enum { METHODS = sizeof fixture_method_names / sizeof *fixture_method_names };
 
-/* Fluid that falls on a ball that rocks to and fro and a block, both of which hold it, and on the floor. */
+/* Fluid falling on a rocking ball, a no-slip block, and the floor. */
 static WorldDef fall_def(const char *method, int dimensions)
 {
     WorldDef def = fixture_def(1, 1.2, 0.5);
@@ -20,20 +21,16 @@ static WorldDef fall_def(const char *method, int dimensions)
     wcsph_def(&def)->corrected_gradient = true;
     *world_threads(&def) = 1;
     fixture_block(&def, 0, -0.5, 0, -0.25, 0.1, 0.8, 0.25);
-    def.solids[def.solid_count++] =
-        (SolidDef){.kind = SOLID_SPHERE,
-                   .centre = {-0.2, 0.3, 0},
-                   .radius = 0.16,
-                   .axis = {0, 1, 0},
-                   .slip = SLIP_NONE,
-                   .motion_count = 1,
-                   .motions = {{.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.05, .frequency = 2}}};
+    def.solids[def.solid_count++] = (SolidDef){
+        .kind = SOLID_SPHERE, .centre = {-0.2, 0.3, 0}, .radius = 0.16, .axis = {0, 1, 0}, .slip = SLIP_NONE};
+    add_solid_motion(&def.solids[0],
+                     (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.05, .frequency = 2});
     def.solids[def.solid_count++] = (SolidDef){
         .kind = SOLID_BOX, .centre = {0.25, 0.12, 0}, .size = {0.24, 0.24, 0.24}, .axis = {0, 1, 0}};
     return def;
 }
 
-static World *felt_on(const WorldDef *def, const char *backend)
+static World *world_with_forces(const WorldDef *def, const char *backend)
 {
     Error error = {{0}};
     World *world = world_on(*def, backend);
@@ -42,7 +39,7 @@ static World *felt_on(const WorldDef *def, const char *backend)
     return world;
 }
 
-/* Of a push, over the size of what was felt; torques over that and a metre. */
+/* Error of a push over the push's magnitude; torques over the magnitude times 1 m. */
 static double off(const Push *a, const Push *b, double size)
 {
     double most = 0;
@@ -57,9 +54,9 @@ static double size_of(const Push *push)
 }
 
 /* After so many steps on the CPU, of a few more: box and solids within 1e-3 of what the ball feels. */
-static void compare_felt(const WorldDef *def, int before, int steps)
+static void compare_forces(const WorldDef *def, int before, int steps)
 {
-    World *cpu = felt_on(def, "cpu"), *gpu = felt_on(def, "compute");
+    World *cpu = world_with_forces(def, "cpu"), *gpu = world_with_forces(def, "compute");
     Forces a, b;
     fixture_step(cpu, before);
     world_forces(cpu, &a);
@@ -90,11 +87,11 @@ static void what_is_felt_is_that_of_the_cpu(void **state)
     for (int run = 0; run < METHODS; run++) {
         WorldDef def = fall_def(fixture_method_names[run], 2 + run % 2);
         def.wall_slip = run == 0 ? SLIP_NONE : SLIP_FREE;
-        compare_felt(&def, 60, 5);
+        compare_forces(&def, 60, 5);
     }
 }
 
-/* So fast that guards hold it, at solids and walls. */
+/* Fast enough for the guards at solids and walls. */
 static void guards_are_felt(void **state)
 {
     (void)state;
@@ -102,7 +99,7 @@ static void guards_are_felt(void **state)
     def.fluids[0].velocity[1] = -30;
     def.fluids[0].viscosity = 0;
     def.sound_speed = 1;
-    compare_felt(&def, 0, 12);
+    compare_forces(&def, 0, 12);
 }
 
 /* Asked once a frame, as `slosh run` does: what is taken back comes to no sum. */
@@ -112,14 +109,14 @@ static void time_that_went_back_is_not_summed(void **state)
     WorldDef def = fall_def("mueller", 2);
     def.dt = 0.015;
     def.retries = 3;
-    World *world = felt_on(&def, "compute");
+    World *world = world_with_forces(&def, "compute");
     double seconds = 0;
-    Forces felt;
+    Forces forces;
     for (int frame = 0; frame < 20; frame++) {
         fixture_step(world, 1);
-        world_forces(world, &felt);
-        assert_true(isfinite(felt.box.force[1]) && isfinite(felt.solid[0].force[1]));
-        seconds += felt.seconds;
+        world_forces(world, &forces);
+        assert_true(isfinite(forces.box.force[1]) && isfinite(forces.solid[0].force[1]));
+        seconds += forces.seconds;
     }
     assert_true(info_of(world).trouble.count > 0);
     assert_float_equal(seconds, info_of(world).time, 1e-6);
@@ -133,8 +130,8 @@ static void who_does_not_ask_has_nothing_of_it(void **state)
     World *world = world_on(def, "compute");
     const Compute *compute = world->state;
     fixture_step(world, 1);
-    assert_true(!compute->felt.buffer && !compute->felt.marked);
-    for (int pass = COMPUTE_FELT; pass < COMPUTE_PASS_COUNT; pass++)
+    assert_true(!compute->forces.buffer && !compute->forces.marked);
+    for (int pass = COMPUTE_FORCES; pass < COMPUTE_PASS_COUNT; pass++)
         assert_int_equal(compute->program[pass], 0);
     world_destroy(world);
 }

@@ -1,10 +1,11 @@
 /* Solids on the backend `compute` against `cpu`, from the same states. */
 #include "tests/gl/compare.h"
+#include "tests/lists.h"
 
 #include "sim/gpu/compute/compute.h"
 #include "sim/methods/wcsph/wcsph.h"
 
-/* Two viscous fluids about one solid of each kind, moving ones among them, in a box that moves. */
+/* Two viscous fluids around a solid of each kind, some moving, in a moving box. */
 static WorldDef solids_def(int dimensions)
 {
     WorldDef def = fixture_def(1.2, 1, 0.9);
@@ -18,10 +19,9 @@ static WorldDef solids_def(int dimensions)
     def.fluids[1] = (FluidDef){.name = "oil", .density = 700, .viscosity = 3};
     fixture_block(&def, 0, -0.6, 0, -0.45, 0.3, 0.4, 0.45);
     fixture_block(&def, 1, -0.6, 0.4, -0.45, 0.3, 0.6, 0.45);
-    def.motions[def.motion_count++] =
-        (Motion){.kind = MOTION_SHAKE, .axis = {1, 0.3, 0}, .amplitude = 0.05, .frequency = 2};
-    const Motion rock = {.kind = MOTION_ROCK, .axis = {0, 0, 1}, .angle_deg = 25, .frequency = 2},
-                 shake = {.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.05, .frequency = 3};
+    add_motion(&def, (Motion){.kind = MOTION_SHAKE, .axis = {1, 0.3, 0}, .amplitude = 0.05, .frequency = 2});
+    static const Motion rock = {.kind = MOTION_ROCK, .axis = {0, 0, 1}, .angle_deg = 25, .frequency = 2},
+                        shake = {.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.05, .frequency = 3};
     const SolidDef solids[] = {
         {.kind = SOLID_SPHERE, .centre = {-0.35, 0.3, 0}, .radius = 0.12, .slip = SLIP_NONE},
         {.kind = SOLID_BOX,
@@ -31,14 +31,14 @@ static WorldDef solids_def(int dimensions)
          .angle_deg = 10,
          .slip = SLIP_NONE,
          .motion_count = 1,
-         .motions = {rock}},
+         .motions = &rock},
         {.kind = SOLID_BOWL,
          .centre = {-0.05, 0.3, dimensions == 2 ? 0 : 0.1},
          .radius = 0.1,
          .thickness = 0.05,
          .axis = {0.2, 1, 0},
          .motion_count = 1,
-         .motions = {shake}},
+         .motions = &shake},
         {.kind = SOLID_CYLINDER,
          .centre = {-0.3, 0.05, 0},
          .radius = 0.1,
@@ -50,7 +50,8 @@ static WorldDef solids_def(int dimensions)
     return def;
 }
 
-/* wcsph with all its terms: one fluid with laminar viscosity, one with artificial, diffusion of density. */
+/* wcsph with all terms: a fluid with laminar viscosity, a fluid with artificial viscosity, density
+   diffusion. */
 static WorldDef full_wcsph_def(void)
 {
     WorldDef def = solids_def(2);
@@ -95,8 +96,8 @@ static void scenes_stay_with_the_cpu(void **state)
     }
 }
 
-/* Where nobody asks for the same bits the guard has 32: a particle within their rounding of a surface may be
-   held on one and not on the other, which is as far off as it is put above that, and as fast as it came. */
+/* Without reproducible mode the guard has 32 bits: a particle within rounding of a surface may be held by
+   a single backend only. The error is the guard's shift and the speed of arrival. */
 static void single_precision_is_near(void **state)
 {
     (void)state;
@@ -131,8 +132,8 @@ static void single_precision_is_near(void **state)
     }
 }
 
-/* A cup that goes to and fro by its radius in a frame, with 200 g, spills its fluid over its rim, not through
-   its wall; a box with a ball and a pillar is shaken at ten times what a hand may do. */
+/* A cup moving to and fro by a radius per frame, at 200 g, spills fluid over the rim, not through the
+   wall; a box with a ball and a pillar is shaken at ten times a hand's limit. */
 static WorldDef cup_def(int dimensions)
 {
     WorldDef def = fixture_def(1.2, 1, 0.6);
@@ -143,15 +144,11 @@ static WorldDef cup_def(int dimensions)
     def.gravity[1] = -150;
     def.fluids[0].viscosity = 10;
     def.solids[def.solid_count++] = (SolidDef){
-        .kind = SOLID_BOWL,
-        .centre = {0, 0.6, 0},
-        .radius = 0.2,
-        .thickness = 0.042,
-        .axis = {0, 1, 0},
-        .motion_count = 1,
-        .motions = {{.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.2, .frequency = 1 / 0.064}}};
-    def.fluids[0].fills[def.fluids[0].fill_count++] =
-        (Fill){.kind = FILL_BALL, .centre = {0, 0.505, 0}, .radius = 0.09};
+        .kind = SOLID_BOWL, .centre = {0, 0.6, 0}, .radius = 0.2, .thickness = 0.042, .axis = {0, 1, 0}};
+    add_solid_motion(
+        &def.solids[0],
+        (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.2, .frequency = 1 / 0.064});
+    add_fill(&def.fluids[0], (Fill){.kind = FILL_BALL, .centre = {0, 0.505, 0}, .radius = 0.09});
     return def;
 }
 

@@ -1,5 +1,5 @@
-/* Implicit viscosity on the backend `compute`: its steps against those of `cpu`, that no step is too long for
-   it, and that the saved state is all that it needs. */
+/* Implicit viscosity on the backend `compute`: steps against `cpu`, unlimited step length, and a complete
+   saved state. */
 #include "tests/gl/parity_case.h"
 #include "tests/viscosity/ball.h"
 
@@ -19,7 +19,7 @@ static WorldDef def_of(const ParityCase *c)
 {
     WorldDef def = parity_def(&table, c);
     def.viscosity_solver = VISCOSITY_IMPLICIT;
-    def.viscosity_tolerance = 1e-6; /* so that it goes on for some iterations */
+    def.viscosity_tolerance = 1e-6; /* enough for some iterations */
     def.viscosity_iterations = 500;
     def.reproducible = true;
     return def;

@@ -1,15 +1,16 @@
-/* Derived scalars and vectors of a world's particles where they are, in a GPU backend's buffers, against
-   those of the same state read and uploaded: one formula whatever the source, the order of particles and the
-   strides. */
+/* Derived scalars and vectors in a GPU backend's buffers, against uploads of the same state: a single
+   formula for all sources, orders and strides. */
 #include "tests/gl/compare.h"
+#include "tests/lists.h"
 
-#include "render/particles/derived.h"
+#include "render/particles/particles.h"
 
-/* But for what is of columns that this world has not. */
+/* Except for scalars of missing columns. */
 #define ALL_SCALARS (SCALAR_BIT(SCALAR_COUNT) - 1 - SCALAR_BIT(SCALAR_ACCELERATION))
 #define ALL_VECTORS                                                                                          \
     (VECTOR_BIT(VECTOR_COUNT) - 1 - VECTOR_BIT(VECTOR_ACCELERATION) - VECTOR_BIT(VECTOR_FRICTION_BEFORE))
-static const ParticleWants everything = {ALL_SCALARS, ALL_VECTORS, PARTICLE_ID};
+static const ParticleWants everything = {
+    .scalars = ALL_SCALARS, .vectors = ALL_VECTORS, .attributes = PARTICLE_ID};
 
 static bool emits(const char *backend)
 {
@@ -28,11 +29,13 @@ static WorldDef tank(const char *backend)
     fixture_block(&def, 0, -0.2, 0, -0.2, 0, 0.4, 0.2);
     if (emits(backend)) {
         def.most = 5000;
-        def.fluids[0].emits[def.fluids[0].emit_count++] = (Emit){
-            .centre = {0.05, 0.5, 0}, .direction = {0, -1, 0}, .radius = 0.05, .speed = 2, .start = 0.01};
+        add_emit(&def.fluids[0], (Emit){.centre = {0.05, 0.5, 0},
+                                        .direction = {0, -1, 0},
+                                        .radius = 0.05,
+                                        .speed = 2,
+                                        .start = 0.01});
     }
-    def.motion_count = 1;
-    def.motions[0] = (Motion){.kind = MOTION_SPIN, .axis = {0, 0, 1}, .rate = 2};
+    add_motion(&def, (Motion){.kind = MOTION_SPIN, .axis = {0, 0, 1}, .rate = 2});
     return def;
 }
 

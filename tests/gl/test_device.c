@@ -1,4 +1,4 @@
-/* What stays on the GPU: the state that the sentinel goes back to, and the particles during a frame. */
+/* Data that stays on the GPU: the sentinel's state, and the particles during a frame. */
 #include "tests/render/fixture.h"
 #include "tests/sim/fixture.h"
 
@@ -6,7 +6,7 @@
 #include "render/overlays/glyphs/glyphs.h"
 #include "render/views/pbsr/pbsr.h"
 #include "sim/gpu/compute/compute.h"
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 #include "sim/step/world.h"
 
 #include <epoxy/egl.h>
@@ -34,8 +34,8 @@ static WorldDef column_def(const char *backend)
     return def;
 }
 
-/* Calls that carry data from the GPU to this side, that wait for it, or ask how far it is; what the program
-   calls goes through these pointers. Memory that stays mapped is read behind a fence, which is waited for. */
+/* Calls that transfer from the GPU, wait for the GPU, or query progress; the program calls through these
+   pointers. Mapped memory is read after a fence, and the wait for the fence counts. */
 static int crossings, waits, queries;
 static bool drawing;
 static PFNGLCLIENTWAITSYNCPROC wait_sync;
@@ -96,7 +96,7 @@ static void *APIENTRY count_map(GLenum target, GLintptr offset, GLsizeiptr size,
     return map(target, offset, size, access);
 }
 
-/* A look at a fence that has not been reached waits for nothing. */
+/* A look at an unreached fence does not wait. */
 static GLenum APIENTRY count_wait_sync(GLsync fence, GLbitfield flags, GLuint64 most_ns)
 {
     waits += most_ns > 0;
@@ -115,7 +115,7 @@ static void APIENTRY count_query_iv(GLuint query, GLenum what, GLint *value)
     query_iv(query, what, value);
 }
 
-/* A look waits for nothing. The order of `fragment` has a query of its own. */
+/* A look does not wait. The order of `fragment` has a separate query. */
 static void APIENTRY count_query_uiv(GLuint query, GLenum what, GLuint *value)
 {
     queries += drawing && what != GL_QUERY_RESULT_NO_WAIT;
@@ -148,7 +148,7 @@ static void counting(bool on)
 #undef COUNT
 }
 
-/* A view with its settings, and how often a picture of it may read from the GPU. */
+/* A view with settings, and the allowed reads from the GPU per picture. */
 typedef struct Viewed {
     const char *kind;
     VolumeMethod method;
@@ -156,14 +156,14 @@ typedef struct Viewed {
     VolumeShow show;
     double level;
     bool fluid;  /* as the colour, which has no range */
-    bool glyphs; /* arrows beside it, of a length of their own */
+    bool glyphs; /* arrows as overlay, with automatic length */
     int crossings;
-    bool software; /* crossings on a software driver only; what it notes is a query elsewhere */
+    bool software; /* crossings on a software driver only; on hardware the note is a query */
     int waits;     /* on a software driver, for what the CPU writes next */
 } Viewed;
 
-/* Bounds that follow the fluid make textures, whose size this side must know; `slabs` sums on the CPU, and so
-   does `slice` on a software driver; `pbsr` makes its layers there, of positions and what colours go by. */
+/* Bounds of the fluid make textures of a size known to the CPU. `slabs` sums on the CPU, `slice` too on a
+   software driver. `pbsr` makes layers on the CPU from positions and colour values. */
 static const Viewed views[] = {
     {.kind = "none"},
     {.kind = "spheres"},
@@ -200,10 +200,10 @@ static ViewDef view_of(const Viewed *viewed)
     return view;
 }
 
-/* Steps with the sentinel on, and pictures, coloured with a range that follows the state: three waits a
-   frame, for what the sentinel found in the frame before, for the energy, since fluid that begins to fall is
-   watched closely, and for that range. `late`: as in the window, which waits for no range, no length of
-   arrows and nothing that a legend says. */
+/* Steps with the sentinel on, and pictures coloured with a range of the state: three waits a frame. The
+   waits are for the sentinel's findings of the frame before, for the energy (falling fluid is watched
+   closely), and for the range. `late`: as in the window, without waits for ranges, arrow lengths and
+   legend texts. */
 static void count_frames(const char *backend, const Viewed *viewed, bool late, Offscreen *offscreen,
                          World *world)
 {
@@ -211,7 +211,7 @@ static void count_frames(const char *backend, const Viewed *viewed, bool late, O
     Error error = {0};
     renderer_set_late(offscreen->renderer, late);
     for (int frame = 0; frame < 2 + FRAMES; frame++) {
-        if (frame == 2) { /* the first pictures make what they need */
+        if (frame == 2) { /* the first pictures create resources */
             crossings = waits = queries = 0;
             counting(true);
         }
@@ -266,7 +266,7 @@ static void no_particle_crosses_in_a_frame(void **state)
     }
 }
 
-/* What the views are given is what world_read reads. */
+/* Views get the same values as world_read. */
 static void shared_is_what_is_read(void **state)
 {
     const WorldDef def = column_def(*state);
@@ -329,7 +329,7 @@ static void the_sentinel_goes_back_a_frame_later(void **state)
     assert_int_equal(info.trouble.count, 0);
     assert_false(world_is_valid(world));
     WorldState none = {0};
-    assert_false(world_save(world, &none, &error)); /* nor is it kept as a good one */
+    assert_false(world_save(world, &none, &error)); /* nor kept as a good state */
     assert_non_null(strstr(error.message, "not sound"));
     const uint64_t step = info.step;
     assert_true(world_substep(world, NULL, &error));
@@ -347,8 +347,8 @@ static void the_sentinel_goes_back_a_frame_later(void **state)
     world_destroy(world);
 }
 
-/* Once a step has blown up the rest of its frame does nothing: all fluid would gather in a corner, and each
-   particle there would be everybody's neighbour. */
+/* After a blow-up the rest of the frame is skipped: all fluid would gather in a corner with all particles
+   as neighbours. */
 static void a_blown_up_frame_costs_nothing(void **state)
 {
     WorldDef def = column_def(*state);
@@ -384,7 +384,7 @@ static void without_retries_it_ends(void **state)
     world_destroy(world);
 }
 
-/* A saved state knows what the frame before found: mode cfl steps by it. */
+/* A saved state contains the findings of the frame before: mode cfl uses the findings. */
 static void adaptive_steps_go_on_from_a_saved_state(void **state)
 {
     WorldDef def = column_def(*state);

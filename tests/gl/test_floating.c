@@ -1,7 +1,7 @@
 /* Solids that float on the backend `compute` against `cpu`, from the same start; and from a saved state. */
 #include "tests/gl/compare.h"
 
-/* One that is free and one on a hinge. */
+/* A free body and a hinged body. */
 static WorldDef floating_def(const char *method)
 {
     WorldDef def = fixture_def(1.2, 0.9, 0);

@@ -1,10 +1,10 @@
 /* The backend `fragment` against `cpu`, from the same states; its buckets against brute force. */
 #include "tests/gl/parity.h"
+#include "tests/lists.h"
 
 #include "sim/cpu/cpu.h"
 #include "sim/gpu/fragment/fragment.h"
-#include "sim/gpu/gl_context.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 #include "sim/methods/mueller/mueller.h"
 
 #include <epoxy/gl.h>
@@ -17,7 +17,7 @@ static WorldDef coarse_def(int dimensions)
     return def;
 }
 
-/* One fluid without viscosity, by the other kernel, that may pull: too violent a state for a run. */
+/* A fluid without viscosity, with the second kernel and tensile pressure: too violent for a run. */
 static void other_terms(WorldDef *def)
 {
     def->fluid_count = 1;
@@ -31,6 +31,8 @@ static void steps_are_those_of_the_cpu(void **state)
     (void)state;
     for (int k = 0; k < 4; k++) {
         WorldDef def = coarse_def(2 + k % 2);
+        if (k == 0)
+            for_layers(&def);
         if (k >= 2)
             other_terms(&def);
         World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "fragment");
@@ -75,7 +77,7 @@ static void the_watch_sees_what_the_cpu_sees(void **state)
     world_destroy(gpu);
 }
 
-/* Fails unless the cell holds these particles, ordered by their indices, as far as it has places. */
+/* Fails unless the cell holds the given particles, ordered by index, up to the cell's capacity. */
 static void require_cell(const Fragment *f, const uint32_t *places, size_t cell, const uint32_t *members,
                          int count)
 {
@@ -87,7 +89,8 @@ static void require_cell(const Fragment *f, const uint32_t *places, size_t cell,
     }
 }
 
-/* How many of the world's particles find no place; fails unless every place holds what it should. */
+/* The number of the world's particles without a place; fails unless every place holds the expected
+   particle. */
 static size_t check_buckets(World *gpu)
 {
     enum { MEMBERS = 400 };
@@ -171,7 +174,7 @@ static void an_order_is_that_of_the_cells(void **state)
     world_destroy(gpu);
 }
 
-/* What views get of a particle is of its id. */
+/* Views read a particle's values by id. */
 static void require_shared(World *world)
 {
     ParticleBuffers shared;
@@ -220,7 +223,7 @@ static void no_bit_depends_on_the_order(void **state)
 
 enum { CROWD = 700 };
 
-/* Particles at rest without weight: most of them everywhere, 300 of them in one cell. */
+/* Weightless particles at rest: most spread out, 300 in a single cell. */
 static WorldDef crowd_def(float position[3 * CROWD], InitialState *initial, int layers, int limit)
 {
     WorldDef def = fixture_def(1, 1, 1);
@@ -414,7 +417,7 @@ static void the_context_is_left_as_it_was(void **state)
     world_destroy(world);
 }
 
-/* What it has not stays out when it is named later: friction of the walls comes with the first viscosity. */
+/* Missing inputs stay out if named later: wall friction comes with the first viscosity. */
 static void what_comes_later_is_refused_too(void **state)
 {
     (void)state;
@@ -451,13 +454,11 @@ static void what_it_cannot_do_is_said(void **state)
     def.solids[0] = (SolidDef){.kind = SOLID_SPHERE, .centre = {0, 0.8, 0}, .radius = 0.1};
     refused(&def, "backend fragment has no solids; use backend compute or cpu");
     def = coarse_def(3);
-    def.drain_count = 1;
-    def.drains[0] = (Fill){.kind = FILL_BALL, .centre = {0, 0.8, 0}, .radius = 0.1};
+    add_drain(&def, (Fill){.kind = FILL_BALL, .centre = {0, 0.8, 0}, .radius = 0.1});
     refused(&def, "backend fragment has no drains; use backend compute or cpu");
     def = coarse_def(3);
-    def.fluids[0].emit_count = 1;
-    def.fluids[0].emits[0] =
-        (Emit){.centre = {0, 0.9, 0}, .direction = {0, -1, 0}, .radius = 0.1, .speed = 1};
+    add_emit(&def.fluids[0],
+             (Emit){.centre = {0, 0.9, 0}, .direction = {0, -1, 0}, .radius = 0.1, .speed = 1});
     refused(&def, "backend fragment has no emitters; use backend compute or cpu");
     def = coarse_def(3);
     def.wall_slip = SLIP_NONE;
@@ -481,7 +482,7 @@ static void what_it_cannot_do_is_said(void **state)
     assert_non_null(strstr(error.message, wanted));
 }
 
-/* The compiler then proves that they need no more. */
+/* The compiler then proves that no more is needed. */
 static void shaders_are_of_glsl_3_30(void **state)
 {
     (void)state;

@@ -4,7 +4,7 @@
 #include "render/renderer.h"
 #include "sim/gpu/compute/compute.h"
 #include "sim/gpu/fragment/fragment.h"
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 #include "sim/methods/wcsph/wcsph.h"
 #include "sim/step/world.h"
 
@@ -62,7 +62,7 @@ static void APIENTRY limited_integer64(GLenum name, GLint64 *value)
         get_integer64(name, value);
 }
 
-/* The driver says from now on that it has so little of it; 0: what it has. */
+/* Limits the size reported by the driver; 0: the driver's value. */
 static void limit(GLenum name, GLint value)
 {
     get_integer = (PFNGLGETINTEGERVPROC)eglGetProcAddress("glGetIntegerv");
@@ -148,7 +148,7 @@ static const GLubyte *APIENTRY telling(GLenum name, GLuint index)
     return (const GLubyte *)"GL_NVX_gpu_memory_info";
 }
 
-/* Their lists of 72 neighbours want 292,000 bytes: of buffers that shaders may have, and of the memory. */
+/* Lists of 72 neighbours need 292,000 bytes: limited by the size of shader buffers, and by memory. */
 static void lists_that_do_not_fit_are_said(void **state)
 {
     (void)state;
@@ -324,7 +324,7 @@ static void memory_of_textures_may_come(void **state)
     world_destroy(world);
 }
 
-/* Whichever buffer of a world it is that there is no memory for. */
+/* For each buffer of a world: no memory for the buffer. */
 static void no_world_is_made_of_too_little(void **state)
 {
     (void)state;
@@ -359,14 +359,13 @@ static void views_ask(void **state)
 {
     (void)state;
     ViewDef def = view_def_default();
-    const WorldDef world = {
-        .dimensions = 3,
-        .box_size = {1, 1, 1},
-        .spacing = 0.1,
-        .support = 2.1,
-        .fluid_count = 1,
-        .fluids = {{.fill_count = 1,
-                    .fills = {{.min = {-0.5, 0, -0.5}, .max = {0.5, 1, 0.5}}}}}}; /* 1000 particles */
+    const Fill block = {.min = {-0.5, 0, -0.5}, .max = {0.5, 1, 0.5}}; /* 1000 particles */
+    const WorldDef world = {.dimensions = 3,
+                            .box_size = {1, 1, 1},
+                            .spacing = 0.1,
+                            .support = 2.1,
+                            .fluid_count = 1,
+                            .fluids = {{.fill_count = 1, .fills = &block}}};
     Error error = {0};
     limit(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, 0);
     assert_no_view(&def, "view spheres needs 5 storage blocks in a vertex shader, and this driver has 0");

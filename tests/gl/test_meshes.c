@@ -1,5 +1,6 @@
 /* Solids that are meshes, on the backends `cpu` and `compute`: the rabbit of scenes/rabbit.yaml. */
 #include "tests/gl/compare.h"
+#include "tests/lists.h"
 
 #include "sim/gpu/compute/compute.h"
 
@@ -16,12 +17,12 @@ static WorldDef shaken_def(double spacing)
     WorldDef def = rabbit_def(spacing);
     SolidDef *rabbit = &def.solids[0];
     rabbit->centre[1] = 0.25;
-    rabbit->motions[rabbit->motion_count++] =
-        (Motion){.kind = MOTION_SHAKE, .axis = {1, 0.5, 0}, .amplitude = 0.1, .frequency = 3};
-    rabbit->motions[rabbit->motion_count++] =
-        (Motion){.kind = MOTION_ROCK, .axis = {0, 1, 1}, .angle_deg = 40, .frequency = 2};
-    def.motions[def.motion_count++] =
-        (Motion){.kind = MOTION_SHAKE, .axis = {1, 0.3, 0.2}, .amplitude = 0.08, .frequency = 2.5};
+    add_solid_motion(rabbit,
+                     (Motion){.kind = MOTION_SHAKE, .axis = {1, 0.5, 0}, .amplitude = 0.1, .frequency = 3});
+    add_solid_motion(rabbit,
+                     (Motion){.kind = MOTION_ROCK, .axis = {0, 1, 1}, .angle_deg = 40, .frequency = 2});
+    add_motion(&def,
+               (Motion){.kind = MOTION_SHAKE, .axis = {1, 0.3, 0.2}, .amplitude = 0.08, .frequency = 2.5});
     return def;
 }
 
@@ -96,7 +97,7 @@ static void any_number_of_threads_gives_the_same(void **state)
     assert_true(hash[0] == hash[1]);
 }
 
-/* A scene without meshes has nothing of theirs. */
+/* A scene without meshes has no mesh resources. */
 static void without_meshes_there_is_no_texture(void **state)
 {
     (void)state;

@@ -1,14 +1,14 @@
-/* The order in which work groups and their invocations come to their turn is the driver's: a world that asks
-   to be reproducible has the same bits in any. The test gives the solver's shaders other numbers for what
-   they are. */
+/* The order of work groups and invocations is up to the driver: a world in reproducible mode has the same
+   bits in any order. The test gives the solver's shaders permuted numbers. */
 #include "sim/methods/wcsph/wcsph.h"
 #include "tests/gl/compare.h"
+#include "tests/lists.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
 static PFNGLSHADERSOURCEPROC set_source;
-static const char *order; /* of n things, which one g is; NULL: as they come */
+static const char *order; /* position g among n things; NULL: unchanged */
 static int changed;
 
 static const char *const orders[] = {
@@ -25,7 +25,7 @@ static const char permuted[] =
     "    return groups_taken() * gl_WorkGroupSize + uvec3(nth(gl_LocalInvocationID.x, gl_WorkGroupSize.x), 0u, 0u);\n"
     "}\n";
 
-/* What stands in a shader of the solver, and in its place; both of one length. */
+/* Text in a solver's shader, and the replacement of the same length. */
 static void replace(char *text, const char *what, const char *by)
 {
     assert_int_equal(strlen(what), strlen(by));
@@ -35,7 +35,7 @@ static void replace(char *text, const char *what, const char *by)
     }
 }
 
-/* The sizes of work groups are known behind the line that declares them. */
+/* The sizes of work groups are known after the declaring line. */
 static char *with_order(const char *text)
 {
     const char *declared = strstr(text, ") in;\n");
@@ -73,12 +73,11 @@ static WorldDef splash_def(const char *method)
     fixture_block(&def, 0, -0.6, 0, -0.3, 0.1, 0.5, 0.3);
     def.solids[def.solid_count++] = (SolidDef){
         .kind = SOLID_SPHERE, .centre = {0.3, 0.2, 0}, .radius = 0.15, .axis = {0, 1, 0}, .slip = SLIP_NONE};
-    def.solids[0].motions[def.solids[0].motion_count++] =
-        (Motion){.kind = MOTION_SHAKE, .axis = {0, 1, 0}, .amplitude = 0.05, .frequency = 5};
-    def.fluids[0].emits[def.fluids[0].emit_count++] =
-        (Emit){.centre = {-0.2, 0.8, 0}, .direction = {0.3, -1, 0}, .radius = 0.13, .speed = 2};
-    def.drains[def.drain_count++] =
-        (Fill){.kind = FILL_BLOCK, .min = {-0.6, 0, -0.3}, .max = {-0.4, 0.1, 0.3}};
+    add_solid_motion(&def.solids[0],
+                     (Motion){.kind = MOTION_SHAKE, .axis = {0, 1, 0}, .amplitude = 0.05, .frequency = 5});
+    add_emit(&def.fluids[0],
+             (Emit){.centre = {-0.2, 0.8, 0}, .direction = {0.3, -1, 0}, .radius = 0.13, .speed = 2});
+    add_drain(&def, (Fill){.kind = FILL_BLOCK, .min = {-0.6, 0, -0.3}, .max = {-0.4, 0.1, 0.3}});
     return def;
 }
 

@@ -1,11 +1,11 @@
-/* The shaders as such: what every compiler must take, and what none may take another way. */
+/* Shader sources: required by every compiler, and without ambiguity between compilers. */
 #include "tests/gl/compare.h"
 
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 
-/* What stands in the parentheses that begin at `open`, ended within the line. */
+/* Text in the parentheses that begin at `open`, closed on the same line. */
 static size_t within(const char *open)
 {
     size_t length = 0;

@@ -4,9 +4,8 @@
 #include "tests/surface/fixture.h"
 
 #include "sim/gpu/points/points_gpu.h"
-#include "sim/points/fields.h"
-#include "sim/points/level_kind.h"
 #include "sim/points/points.h"
+#include "sim/points/walk.h"
 #include "slosh/world.h"
 
 enum { SIDE = 20 };
@@ -62,7 +61,7 @@ static double apart(const SurfacePoint *a, const SurfacePoint *b)
     return sqrt(square);
 }
 
-/* To first order: how far a point is from the surface; and that its normal is the field's. */
+/* To first order: the distance of a point from the surface; the normal equals the field's. */
 static double distance_of(const SurfaceRequest *request, const SurfacePoint *point, const char *what)
 {
     const float *p = point->position;
@@ -143,7 +142,7 @@ static void points_are_those_of_the_cpu(void **state)
     assert_int_equal(gl_debug_errors(), 0);
 }
 
-/* Small blocks and dispatches: what is seen and done at once is of no account. And points that stay. */
+/* Small blocks and dispatches have no effect on results. Also points that stay. */
 static void work_groups_are_of_no_account(void **state)
 {
     (void)state;
@@ -221,7 +220,7 @@ static void what_is_not_for_a_gpu_is_refused(void **state)
     surface_gpu_destroy(&gpu);
 }
 
-/* For figures SLOSH_POINTS=1e7 build/release/tests/test_gl surface: points that stay, with their seeds. */
+/* For figures SLOSH_POINTS=1e7 build/release/tests/test_gl surface: persistent points, with seeds. */
 static void points_a_second(void **state)
 {
     (void)state;

@@ -1,17 +1,17 @@
-/* A method that keeps a column of its own (tests/sim/toy_method.h) on the backend compute: the column goes
-   with its particle wherever that goes. */
+/* A method with a column (tests/sim/toy_method.h) on the backend compute: the column always follows the
+   particle. */
 #include "tests/gl/compare.h"
+#include "tests/lists.h"
 #include "tests/sim/toy_method.h"
 #include "tests/sim/toy_shaders.h"
 
 #include "sim/gpu/compute/compute.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 #include "slosh/state.h"
 
 #include <epoxy/gl.h>
 
-/* Springs soon swing in and out, so that particles change their cells; emitters and drains where they are
-   asked for. */
+/* Springs soon oscillate, so that particles change cells; emitters and drains on request. */
 static WorldDef toy_def(bool flows)
 {
     WorldDef def = fixture_def(1, 1, 1);
@@ -22,9 +22,9 @@ static WorldDef toy_def(bool flows)
     if (!flows)
         return def;
     def.most = 3000;
-    def.fluids[0].emits[def.fluids[0].emit_count++] =
-        (Emit){.centre = {-0.2, 0.8, 0}, .direction = {0, -1, 0}, .radius = 0.2, .speed = 3};
-    def.drains[def.drain_count++] = (Fill){.kind = FILL_BLOCK, .min = {0, 0, -0.5}, .max = {0.5, 0.2, 0.5}};
+    add_emit(&def.fluids[0],
+             (Emit){.centre = {-0.2, 0.8, 0}, .direction = {0, -1, 0}, .radius = 0.2, .speed = 3});
+    add_drain(&def, (Fill){.kind = FILL_BLOCK, .min = {0, 0, -0.5}, .max = {0.5, 0.2, 0.5}});
     return def;
 }
 
@@ -144,7 +144,7 @@ static void it_goes_back(void **state)
     world_destroy(world);
 }
 
-/* What they declare has other names. */
+/* Declarations under different names. */
 static void own_columns_stand_beside_forces(void **state)
 {
     (void)state;

@@ -1,8 +1,9 @@
-/* One small world and one small picture for each form that the shaders take. Every source that reaches the
-   driver is proven by glslangValidator; what dispatches write and the context's own commands then clear, fill
-   or copy is behind a barrier for that; no program has one buffer in two blocks, and none of the solver's has
+/* A small world and a small picture for each variant of the shaders. Every source sent to the driver is
+   validated by glslangValidator. Buffers written by dispatches and then cleared, filled or copied by the
+   context are behind a matching barrier. No program has a buffer in two blocks, and no solver program has
    a block without a buffer. */
 #include "tests/gl/compare.h"
+#include "tests/lists.h"
 #include "tests/scratch.h"
 #include "tests/sim/toy_method.h"
 #include "tests/sim/toy_shaders.h"
@@ -10,22 +11,20 @@
 #include "render/frame/view.h"
 #include "render/overlays/glyphs/glyphs.h"
 #include "render/overlays/trails/trails.h"
-#include "render/particles/derived.h"
-#include "render/particles/plane.h"
+#include "render/particles/particles.h"
 #include "render/renderer.h"
 #include "render/views/pbsr/pbsr.h"
 #include "render/views/slice/slice.h"
-#include "sim/base/sums.h"
+#include "sim/base/base.h"
 #include "sim/def/fluids.h"
-#include "sim/gpu/gl_context.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 #include "sim/methods/mueller/mueller.h"
 #include "sim/methods/wcsph/wcsph.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
-/* What the program calls goes through these pointers; libepoxy's are no such before their first call. */
+/* The program calls through these pointers; libepoxy's pointers are invalid before the first call. */
 #define ENTRIES(X)                                                                                           \
     X(glCompileShader)                                                                                       \
     X(glGetShaderiv)                                                                                         \
@@ -47,8 +46,7 @@
 ENTRIES(X)
 #undef X
 
-/* While all forms are made, the driver compiles nothing and says that all went well: that would take it
- * minutes. */
+/* During the variants the driver skips compiling and reports success: compiling takes minutes. */
 static bool texts_only;
 
 static void APIENTRY maybe_compile(GLuint shader)
@@ -76,7 +74,7 @@ static void APIENTRY say_linked(GLuint program, GLenum what, GLint *value)
         *value = GL_TRUE;
 }
 
-/* Sources: one file each, named by their stage for the validator. */
+/* Sources: a file each, named by stage for the validator. */
 static char folder[SCRATCH_SIZE];
 static size_t sources;
 
@@ -121,8 +119,8 @@ static void APIENTRY keep_source(GLuint shader, GLsizei count, const GLchar *con
     real_glShaderSource(shader, count, text, length);
 }
 
-/* The most that a program has: render/view.c and sim/gpu/compute/compute.c ask drivers for as many. Mesa does
-   not say which stage has a block: of pictures all that the program has. */
+/* Maximum per program: render/frame/view.c and sim/gpu/compute/compute.c request as many from drivers. Mesa
+   does not report the stage of a block: for pictures all blocks of the program count. */
 static GlLimits most;
 
 static void note_most(int *most_so_far, int value)
@@ -157,7 +155,7 @@ static GLuint image_at[UNITS_MAX];
 static int dispatches, commands, violations, unbound;
 static bool worlds_only;
 
-/* A buffer that stands in two blocks of one program, which a compiler may take for two. */
+/* A buffer in two blocks of a program: a compiler may assume two buffers. */
 static void check_alone(GLuint buffer, GLuint seen[], int *count)
 {
     char label[64] = "", program[64] = "";
@@ -374,27 +372,26 @@ static void with_a_ball(SolidDef solids[], int *count)
 static void add_flow(WorldDef *def)
 {
     def->most = 1000;
-    def->fluids[0].emits[def->fluids[0].emit_count++] =
-        (Emit){.centre = {-0.2, 0.45, 0}, .direction = {0, -1, 0}, .radius = 0.12, .speed = 1};
-    def->drains[def->drain_count++] =
-        (Fill){.kind = FILL_BLOCK, .min = {0.1, 0, -0.25}, .max = {0.4, 0.1, 0.25}};
+    add_emit(&def->fluids[0],
+             (Emit){.centre = {-0.2, 0.45, 0}, .direction = {0, -1, 0}, .radius = 0.12, .speed = 1});
+    add_drain(def, (Fill){.kind = FILL_BLOCK, .min = {0.1, 0, -0.25}, .max = {0.4, 0.1, 0.25}});
 }
 
-/* Two steps, what views and who measures may ask of them, what is saved. */
+/* Two steps, all requests of views and measurements, and a save. */
 static void live(const WorldDef *def)
 {
     World *world = fixture_world(def);
     ParticleBuffers shared;
     const double still[3] = {0};
     Error error = {0};
-    Forces felt;
-    if (world->backend->feel)
+    Forces forces;
+    if (world->backend->enable_forces)
         assert_true(world_enable_forces(world, &error));
     fixture_step(world, 2);
     world_share(world, PARTICLE_SCALAR(SCALAR_SPEED) | PARTICLE_FLUID, &shared);
     world->backend->gauge(world->state, still);
     fixture_step(world, 1);
-    world_forces(world, &felt);
+    world_forces(world, &forces);
     Snapshot read = snapshot_read(world);
     snapshot_free(&read);
     world_destroy(world);
@@ -419,6 +416,7 @@ NOINLINE static void mueller_lives(const char *backend)
     LIVE(base, d.reproducible = true, d.fluids[0].viscosity = 0);
     LIVE(base, d.dimensions = 2, set_name(mueller_def(&d)->density_kernel, "poly6"),
          d.negative_pressure = true);
+    LIVE(base, set_name(mueller_def(&d)->density_kernel, "quintic"));
 }
 
 NOINLINE static void mueller_has_more_on_compute(void)
@@ -479,7 +477,7 @@ NOINLINE static void incompressible_lives(const char *method)
 
 enum { VIEWS_MAX = 120 };
 
-/* Every view once, and what makes other shaders of it. */
+/* Every view, with all settings that change shaders. */
 static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
 {
     int count = 0;
@@ -560,7 +558,7 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
     return count;
 }
 
-/* Those whose passes write what others read. */
+/* Methods with passes that write values read by neighbours. */
 static int few_views_of(ViewDef base, ViewDef views[VIEWS_MAX])
 {
     int count = 0;
@@ -643,7 +641,7 @@ NOINLINE static void draw_views(const WorldDef *def, bool solids)
 }
 
 /* All forms of all shaders, of which no step and no picture comes. */
-/* A method that keeps columns of its own. */
+/* A method with additional columns. */
 static void toy_lives(void)
 {
     const WorldDef base = pool_def("compute");

@@ -1,8 +1,8 @@
-/* Meshes as shapes: what is wrong with them, and the distance from them. */
+/* Meshes as shapes: defects, and distances. */
 #include "tests/mesh_models.h"
-#include "tests/near.h"
+#include "tests/tolerance.h"
 
-#include "sim/mesh/triangles.h"
+#include "sim/mesh/mesh_shape.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 
 static const double origin[3] = {0}, unit[3] = {1, 1, 1};
 
-/* What making it says; "" where it is made. */
+/* The message of making the shape; "" on success. */
 static const char *said(Triangles *model, MeshState *state)
 {
     static Error error;
@@ -56,7 +56,7 @@ static void what_is_wrong_is_said(void **state)
     model = a_box();
     for (size_t i = 0; i < model.vertex_count; i++)
         model.vertex[i][2] = 0;
-    assert_non_null(strstr(said(&model, &found), "; ")); /* encloses nothing */
+    assert_non_null(strstr(said(&model, &found), "; ")); /* open, without volume */
     model = model_room(3, 0);
     assert_non_null(strstr(said(&model, &found), "none of its triangles has an area; "));
 }
@@ -79,25 +79,25 @@ static void what_can_be_is_mended(void **state)
     mesh_shape_free(shape);
 
     model = a_box();
-    model_triangle(&model, 4, 4, 9); /* nothing */
+    model_triangle(&model, 4, 4, 9); /* no effect */
     model_triangle(&model, 0, 3, 0);
     assert_string_equal(said(&model, &found), "");
     assert_int_equal(found.triangles.flat, 2);
 
-    model = model_room(1000, 1000); /* two boxes into each other: one body */
+    model = model_room(1000, 1000); /* two intersecting boxes: a single body */
     model_box(&model, origin, unit, 3);
     model_box(&model, (double[3]){0.6, 0.1, 0.1}, unit, 3);
     shape = mesh_shape_make(&model, 1, NULL, &found, NULL);
     assert_true(found.cutting > 8);
     check_near(found.middle[0], 0.3, 1e-6, "its middle");
-    assert_true(distance_at(&shape->distance, (double[3]){0.05, 0, 0}, NULL) < 0); /* in both */
+    assert_true(distance_at(&shape->distance, (double[3]){0.05, 0, 0}, NULL) < 0); /* intersection */
     assert_true(distance_at(&shape->distance, (double[3]){0.7, 0, 0}, NULL) < 0);
     assert_true(distance_at(&shape->distance, (double[3]){0.7, -0.52, 0}, NULL) > 0);
     check_near(distance_volume_below(&shape->distance, 0), 2 - 0.4 * 0.9 * 0.9, 0.02, "volume of both");
     mesh_shape_free(shape);
 }
 
-/* Against the formula, of a polyhedron that leaves its sphere by less than is asked for. */
+/* Against the formula, for a polyhedron within the requested tolerance of the sphere. */
 static void distance_from_a_ball(void **state)
 {
     (void)state;
@@ -173,7 +173,7 @@ static void a_plate_has_two_sides(void **state)
     mesh_shape_free(shape);
 }
 
-/* The figure of docs/performance.md: CPU time of one thread, of 100,000 triangles. */
+/* The figure of docs/labbook/performance.md: CPU time of one thread, of 100,000 triangles. */
 static void a_hundred_thousand_are_soon_ready(void **state)
 {
     (void)state;
@@ -257,7 +257,7 @@ static bool out_of_patience(void *user)
     return ++patience->asked > patience->most;
 }
 
-/* Wherever it is, it ends with few questions more. */
+/* Anywhere, the search ends with few questions more. */
 static void it_ends_when_asked(void **state)
 {
     (void)state;

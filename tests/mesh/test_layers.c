@@ -1,12 +1,12 @@
 /* Meshes as solids: layers of boundary particles, and the guard. */
+#include "tests/lists.h"
 #include "tests/mesh_models.h"
-#include "tests/near.h"
 #include "tests/sim/fixture.h"
+#include "tests/tolerance.h"
 
 #include "sim/kernel/kernel.h"
-#include "sim/solids/boundary_mesh.h"
 #include "sim/solids/solid.h"
-#include "sim/start/fill.h"
+#include "sim/start/start.h"
 
 static SolidDef mesh_solid(const MeshShape *shape, double scale)
 {
@@ -132,7 +132,7 @@ static void layers_weigh_as_those_of_the_shape(void **state)
     mesh_shape_free(ball);
 }
 
-/* Too thin for a layer: particles in its middle, so that fluid sees it. */
+/* Too thin for a layer: particles in the middle, visible to fluid. */
 static void a_thin_part_has_particles(void **state)
 {
     (void)state;
@@ -148,8 +148,8 @@ static void a_thin_part_has_particles(void **state)
     mesh_shape_free(plate);
 }
 
-/* A block, a ball: particles thrown at it from all sides, faster than it is thick, while it moves and turns.
- */
+/* A block, a ball: particles from all sides, faster than a thickness per step, while the solid moves and
+   turns. */
 static void the_guard_lets_nothing_in(void **state)
 {
     (void)state;
@@ -157,10 +157,9 @@ static void the_guard_lets_nothing_in(void **state)
     uint32_t seed = 4;
     for (int k = 0; k < 2; k++) {
         SolidDef solid = mesh_solid(shapes[k], 1);
-        solid.motion_count = 2;
-        solid.motions[0] =
-            (Motion){.kind = MOTION_SHAKE, .axis = {0, 1, 0}, .amplitude = 0.3, .frequency = 2};
-        solid.motions[1] = (Motion){.kind = MOTION_SPIN, .axis = {0, 0, 1}, .rate = 5};
+        add_solid_motion(&solid,
+                         (Motion){.kind = MOTION_SHAKE, .axis = {0, 1, 0}, .amplitude = 0.3, .frequency = 2});
+        add_solid_motion(&solid, (Motion){.kind = MOTION_SPIN, .axis = {0, 0, 1}, .rate = 5});
         int held = 0;
         double deepest = 0;
         for (int n = 0; n < 300; n++) {

@@ -1,8 +1,8 @@
-/* The nearest triangle by the tree, against all triangles one by one. */
+/* The nearest triangle by the tree, against a loop over all triangles. */
 #include "tests/mesh_models.h"
-#include "tests/near.h"
+#include "tests/tolerance.h"
 
-#include "sim/mesh/distance.h"
+#include "sim/mesh/mesh_shape.h"
 
 #include <stdio.h>
 
@@ -61,7 +61,7 @@ static double random_in(double half)
     return half * (bits * 0x1p-31 - 1);
 }
 
-/* At the surface, around it, and far away, where a disc is small for its distance. */
+/* At the surface, around the surface, and far away, with discs small for the distance. */
 static void place(const Triangles *of, int n, double x[3])
 {
     const double off[] = {0, 1e-3, 0.1, 2, 1000};
@@ -95,7 +95,7 @@ static void compare(const char *name, Triangles *model)
     triangles_free(model);
 }
 
-/* In waves, so that some of it leans, bends in and bends out. */
+/* In waves, so that parts lean, bend in and bend out. */
 static Triangles waves(int n)
 {
     Triangles model = model_room(2 * (size_t)(n * n) + 2, 4 * (size_t)(n * n));

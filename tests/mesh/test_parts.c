@@ -1,8 +1,8 @@
-/* Meshes of several parts are one body; vertices that are nearly one are one. */
+/* Meshes of several parts are a single body; nearly equal vertices are merged. */
 #include "tests/mesh_models.h"
-#include "tests/near.h"
+#include "tests/tolerance.h"
 
-#include "sim/solids/body.h"
+#include "sim/solids/solid.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -25,7 +25,7 @@ static void turn(Triangles *model, size_t from, size_t to)
         triangle_turn(model, t);
 }
 
-/* Askew, so that no line of a grid lies along it. */
+/* Askew, so that no grid line runs along an edge. */
 static void rotate(Triangles *model)
 {
     double q[4];
@@ -82,7 +82,7 @@ static void as_a_block(const Weighed *is, const double size[3], double within)
     check_near(sum, 1, 3 * within, "moments");
 }
 
-/* By other triangles than the first one's too; that are not the same, no grid of lines decides. */
+/* By triangles of different parts too; for unequal triangles no grid of lines decides. */
 static void twice_is_once(void **state)
 {
     (void)state;
@@ -115,7 +115,7 @@ static void overlaps_count_once(void **state)
         as_a_block(&is, size, way & 2 ? 1e-4 : 1e-6);
         assert_int_equal(is.state.triangles.turned, way & 1);
     }
-    Triangles within = two((double[3]){0.25, 0, 0}, 0.5, 1); /* in it, with a face on its face */
+    Triangles within = two((double[3]){0.25, 0, 0}, 0.5, 1); /* inside, with touching faces */
     const Weighed is = weigh(&within);
     as_a_block(&is, unit, 1e-6);
 }
@@ -134,13 +134,13 @@ static void a_lens_counts_once(void **state)
         model.vertex[i][0] += (float)d;
     rotate(&model);
     const Weighed is = weigh(&model);
-    check_near(is.volume / (2 * ball - lens), 1, 2e-3, "volume"); /* they are polyhedra */
+    check_near(is.volume / (2 * ball - lens), 1, 2e-3, "volume"); /* polyhedra */
     check_near(is.mass.mass / is.volume, 1, 1e-9, "mass");
     check_near(is.by_grid / is.volume, 1, 2e-3, "volume of the grid");
 }
 
-/* A prism of a bow, whose triangles of 4 and 1 m2 turn opposite ways: one surface, nothing of which can be
-   turned. */
+/* A prism of a bow, with triangles of 4 and 1 m2 in opposite orientation: a single surface without a part
+   to turn. */
 static void a_lobe_that_is_inside_out_counts(void **state)
 {
     (void)state;
@@ -163,7 +163,7 @@ static void a_lobe_that_is_inside_out_counts(void **state)
     check_near(is.mass.centre[0], (4 * -4.0 / 3 + 1 * 2.0 / 3) / 5 + 0.5, 1e-3, "centre");
 }
 
-/* Parts beside each other: nothing is estimated, each is turned; a cavity stays one. */
+/* Separate parts: no estimates, each part is turned; a cavity stays a cavity. */
 static void each_part_is_turned(void **state)
 {
     (void)state;
@@ -247,7 +247,7 @@ static void one_face_too_many_is_left_out(void **state)
     as_a_block(&is, unit, 1e-6);
 }
 
-/* Each triangle with corners of its own, which stray by so much of the ball's size. */
+/* Each triangle with separate corners, displaced by a fraction of the ball's size. */
 static Triangles soup(double by)
 {
     enum { N = 24 };
@@ -308,7 +308,7 @@ static void what_is_wrong_is_named(void **state)
     open.triangle_count--;
     expect(open,
            "the mesh is open: 3 edges lack a triangle; a solid is a closed surface, so close its holes");
-    model_triangle(&wall, 0, 1, 2); /* across a face, by its other diagonal */
+    model_triangle(&wall, 0, 1, 2); /* across a face, by the second diagonal */
     model_triangle(&wall, 1, 3, 2);
     expect(
         wall,

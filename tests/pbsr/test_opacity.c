@@ -7,14 +7,28 @@
 
 #include <cmocka.h>
 
-#include "render/views/pbsr/pbsr_layers.h"
-#include "render/views/pbsr/pbsr_sets.h"
+#include "render/views/pbsr/pbsr_private.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
+
+/* Eq. 1, tilted: alpha of n points on an area of which a pixel is the fraction `part`. */
+static double opacity_of_points(double n, double part, double theta)
+{
+    const double tilted = part / cos(theta);
+    if (!(n > 0))
+        return 0;
+    return tilted < 1 ? -expm1(n * log1p(-tilted)) : 1;
+}
+
+/* Eq. 1 turned: n for alpha, without tilt. */
+static double points_of_opacity(double alpha, double part)
+{
+    return log1p(-fmin(alpha, OPACITY_MOST)) / log1p(-part);
+}
 
 static void formulas_turn_back(void **state)
 {
@@ -23,13 +37,13 @@ static void formulas_turn_back(void **state)
         const double alpha = 0.05 * i, part = 1e-4, n = points_of_opacity(alpha, part);
         assert_float_equal(opacity_of_points(n, part, 0), alpha, 1e-12);
         assert_float_equal(point_density_of_opacity(alpha, part), n, n * part + 1e-12); /* s / S to 0 */
-        assert_float_equal(points_on_area(alpha, 2e-6, 0.5, 10), 10 * 0.5 / 2e-6 * -log(1 - alpha), 1e-3);
+        assert_float_equal(point_density_of_opacity(alpha, 2e-6), -log(1 - alpha) / 2e-6, 1e-4);
     }
     assert_float_equal(opacity_of_points(100, 0.01, 0), 1 - pow(0.99, 100), 1e-12);
     assert_float_equal(opacity_of_points(100, 0.01, PI / 3), 1 - pow(0.98, 100), 1e-12);
     assert_float_equal(opacity_of_points(0, 0.01, 1), 0, 0);
     assert_float_equal(opacity_of_points(1, 0.5, PI / 3 + 0.01), 1, 0); /* an image of less than a pixel */
-    assert_float_equal(points_of_opacity(1, 0.01), points_of_opacity(OPACITY_MOST, 0.01), 0);
+    assert_float_equal(point_density_of_opacity(1, 0.01), point_density_of_opacity(OPACITY_MOST, 0.01), 0);
     const float tangent[2] = {0.5F, 0.25F};
     assert_float_equal(pixel_area(tangent, 100, 50, 2), 0.02 * 0.02, 1e-12);
 }
@@ -68,7 +82,7 @@ static void image_free(SetImage *image)
 static LayerPieces plane_tilted(double theta, double alpha, int squares)
 {
     LayerPieces layer = {
-        .density = point_density_of_opacity(alpha, 1), .curved = 3, .support = 1}; /* it is not bent */
+        .density = point_density_of_opacity(alpha, 1), .curved = 3, .support = 1}; /* not bent */
     const int side = squares + 1;
     assert_true(layer_reserve(&layer, (size_t)(side * side), (size_t)(2 * squares * squares)));
     for (int i = 0; i < side * side; i++) {
@@ -128,8 +142,8 @@ static void compare_opacity(double alpha, double theta, int squares, double edge
     layer_free(&layer);
 }
 
-/* One square that is tilted, from 1 m: within each triangle what is farther is thinned out. A pixel shows
-   s w / |n x| of the plane, of the way x from the eye to it, the unit normal n and the depth w. */
+/* A tilted square at 1 m: within each triangle far points are thinned out. A pixel shows s w / |n x| of
+   the plane, with the ray x from the eye, the unit normal n and the depth w. */
 static void large_triangles_are_thinned_out(void **state)
 {
     (void)state;
@@ -167,8 +181,8 @@ static void opacity_is_as_asked(void **state)
         compare_opacity(0.1, tilt * PI / 180, 20, 4);
 }
 
-/* What has no normal has no edges, and costs no point more for them; a piece that would need more points than
-   are strewn on one says so. */
+/* Points without normals have no edges, at no extra cost; a piece that needs more points than available
+   is noted. */
 static void slices_and_large_pieces(void **state)
 {
     (void)state;
@@ -227,7 +241,7 @@ static void noise_falls_with_the_root(void **state)
     layer_free(&layer);
 }
 
-/* ---- three spheres that overlap ---- */
+/* ---- three overlapping spheres ---- */
 
 enum { SPHERES = 3, BALL_SETS = 256, BALL_PIXELS = 64, PIECES = 150000 };
 
@@ -275,7 +289,7 @@ static LayerPieces ball_layer(const Ball *ball, unsigned number, double curved)
     return layer;
 }
 
-/* A small piece of a sphere: so much optical depth of its pixel, that far away. */
+/* A small piece of a sphere: optical depth of a pixel at the given distance. */
 typedef struct Piece {
     int pixel, ball;
     float w, depth;
@@ -311,7 +325,7 @@ static void add_pieces(Piece *pieces, int ball, const SetSight *sight, double cu
     }
 }
 
-/* The chance of each sphere to be what a pixel shows: all pieces behind each other, in order. */
+/* The probability of each sphere in a pixel: all pieces in depth order. */
 static void composite(const SetSight *sight, double curved, double (*chance)[SPHERES])
 {
     Piece *pieces = malloc(SPHERES * PIECES * sizeof *pieces);
@@ -383,8 +397,8 @@ static double from_rim(const SetSight *sight, int x, int y)
     return nearest;
 }
 
-/* Each pixel within four sigma of its binomial, the mean of each 16 x 16 of them within 1 %. Returns how many
-   values are beyond, in pixels that no outline crosses. */
+/* Each pixel within four sigma of the binomial, the mean of each 16 x 16 block within 1 %. Returns the
+   number of outliers in pixels without an outline. */
 static int compare_balls(double turn, double rise, double curved)
 {
     int beyond = 0;
@@ -427,7 +441,7 @@ static void spheres_are_composited(void **state)
     assert_in_range(beyond, 0, 3); /* of 11,000; by chance 0.7 */
 }
 
-/* An eye as that of sight_from, whose field of view is the same from anywhere. */
+/* An eye like sight_from, with the same field of view from anywhere. */
 static SetSight sight_at(double away)
 {
     SetSight sight = sight_from(away, 256);
@@ -437,8 +451,7 @@ static SetSight sight_at(double away)
     return sight;
 }
 
-/* What a look finds does not depend on the looks before it; where these follow each other at once it does
-   once it is repeated. */
+/* A look's result does not depend on earlier looks; for looks in direct sequence a repetition is needed. */
 static void looks_do_not_depend_on_others(void **state)
 {
     (void)state;
@@ -470,8 +483,8 @@ static void looks_do_not_depend_on_others(void **state)
     rigid_layer_free(&fresh);
 }
 
-/* Of a sphere around the origin what is seen in the middle, where both its sides are parallel to the picture:
-   the part of the sets that have a point in a pixel, and what it may be off by. */
+/* A sphere around the origin, seen in the middle, with both sides parallel to the picture: the share of
+   sets with a point in a pixel, and the tolerance. */
 static double middle_of(const RigidLayer *rigid, int sets, double *error)
 {
     enum { SIDE = 24 };
@@ -511,8 +524,8 @@ static double noise_of_middle(const RigidLayer *rigid, int side)
     return sqrt(squares - sum * sum) / rigid->sets;
 }
 
-/* A walk's points that follow each other are near each other, but their sets are as good as independent, of
-   a sphere 40 pixels wide too. */
+/* Consecutive points of a walk are close, but sets are nearly independent, even for a sphere 40 pixels
+   wide. */
 static void sets_of_walks_are_independent(void **state)
 {
     (void)state;
@@ -536,8 +549,8 @@ static void sets_of_walks_are_independent(void **state)
     }
 }
 
-/* Points that stay have their opacity from near and far, and while looks change are made anew for who comes
-   nearer alone. */
+/* Persistent points have correct opacity from near and far; with changing looks only nearer eyes cause
+   new points. */
 static void still_layers_stay(void **state)
 {
     (void)state;
@@ -568,14 +581,14 @@ static void still_layers_stay(void **state)
     rigid_layer_free(&rigid);
 }
 
-/* Layers that are equal are as opaque as two, not as one. */
+/* Two equal layers have the opacity of two, not of a single layer. */
 static void equal_layers_are_two(void **state)
 {
     (void)state;
     enum { SIDE = 24 };
     const PbsrLayer said = {.of = PBSR_SPHERE, .level = 0.4, .opacity = 0.3};
     const PbsrDef def = {.repeat = 16, .points = 1.2e7, .seed = 3};
-    const double box[3] = {1, 0, 1}, asked = 1 - pow(0.7, 4); /* of each both sides */
+    const double box[3] = {1, 0, 1}, asked = 1 - pow(0.7, 4); /* of each, two sides */
     const SetSight sight = sight_at(5);
     RigidLayer rigid[2] = {{.sets = 0}};
     SetImage image = image_for(&sight);
@@ -607,8 +620,8 @@ static double edge_opacity(const PbsrLayer *said, double edges, int x, int y, do
     return by < 1 ? 1 - pow(1 - said->opacity, 2 * more / *cosine) : 0;
 }
 
-/* Where a sphere is seen edge on it is as opaque as edges says, elsewhere as without. A walk's points lie
-   near each other: over seeds rings vary 2.5 times as much as by chance, and are right in the mean. */
+/* At grazing angles a sphere has the opacity of `edges`, elsewhere the plain opacity. Points of a walk
+   are close together: over seeds rings vary 2.5 times as much as by chance, with a correct mean. */
 static void edges_are_denser(void **state)
 {
     (void)state;
@@ -648,7 +661,7 @@ static void edges_are_denser(void **state)
     }
 }
 
-/* One that cannot be made is tried once, one that is too dense for its memory is made once and says so. */
+/* An impossible layer is tried once; a layer too dense for the memory is made once and noted. */
 static void still_layers_that_fall_short(void **state)
 {
     (void)state;
@@ -757,15 +770,17 @@ static void make_fluid(FluidLayers *layers)
     for (int k = 0; k < 3; k++)
         fluid->side[k] = 2.0 / GRID;
     for (int i = 0; i < GRID * GRID * GRID; i++) {
+        const int index[3] = {i % GRID, i / GRID % GRID, i / GRID / GRID};
         double place[3];
-        fluid_field_place(fluid, (double[]){i % GRID, i / GRID % GRID, i / GRID / GRID}, place);
+        for (int k = 0; k < 3; k++)
+            place[k] = fluid->grid.corner[k] + (index[k] + 0.5) * fluid->side[k];
         fluid->field[i] = place[0] < 0.2 ? 1 : 0;
         fluid->mean[0][i] = (float)(place[0] + 2 * place[1]);
     }
 }
 
-/* Where the fluid is, wherever the layer has been moved and turned; nothing beyond it, and with a colour of
-   its own the layer's. */
+/* At the fluid for every motion and turn of the layer; empty beyond the fluid, and with the layer's own
+   colour. */
 static void formulas_have_the_fluids_colors(void **state)
 {
     (void)state;
@@ -829,7 +844,7 @@ static void equal_seeds_give_equal_points(void **state)
     layer_free(&layer);
 }
 
-/* A cloud one metre deep of even density has the opacity of its depth. */
+/* A cloud of even density, a metre deep, has the opacity of the depth. */
 static void cells_are_even(void **state)
 {
     (void)state;
@@ -854,12 +869,13 @@ static void cells_are_even(void **state)
     layer_free(&layer);
 }
 
-/* Cells behind the eye and beside the picture cost no points, and what is seen has as many without them. */
+/* Cells behind the eye and beside the picture cost no points, and visible cells keep the number of
+   points. */
 static void cells_out_of_sight_cost_nothing(void **state)
 {
     (void)state;
     enum { SIDE = 21 };
-    const SetSight sight = sight_from(0.2, PIXELS); /* in their midst */
+    const SetSight sight = sight_from(0.2, PIXELS); /* inside */
     SetImage image = image_for(&sight);
     LayerPieces layer = {.density = 1, .cell = {0.1, 0.1, 0.1}};
     size_t projected[2] = {0};
@@ -889,7 +905,7 @@ static void cells_out_of_sight_cost_nothing(void **state)
     image_free(&image);
 }
 
-/* What is no number, behind the eye or not there leaves nothing. */
+/* Non-finite points, points behind the eye and missing points leave no mark. */
 static void nothing_is_drawn_of_nothing(void **state)
 {
     (void)state;
@@ -926,7 +942,7 @@ static void the_nearest_stays(void **state)
     image_free(&other);
 }
 
-/* A cloud of one value, as deep as it is wide; who sees it turned or moved gets no piece anew. */
+/* A cloud of constant value, as deep as wide; turning or moving remakes no piece. */
 static void clouds_of_data_are_as_opaque_as_said(void **state)
 {
     (void)state;

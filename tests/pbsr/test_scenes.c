@@ -5,7 +5,7 @@
 #include "app/run/offscreen.h"
 #include "app/scene/scene.h"
 #include "render/views/pbsr/pbsr.h"
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 
 #include <dirent.h>
 
@@ -19,7 +19,7 @@ static int setup(void **state)
     return 0;
 }
 
-/* As few particles as its solids allow, or as it fills at the start. */
+/* As few particles as the solids allow, or as the start needs. */
 static void load(const char *name, Scene *scene)
 {
     static const size_t counts[] = {400, 2000, 0};
@@ -58,7 +58,7 @@ static void fill(World *world)
     assert_true(info.count > 0);
 }
 
-/* Without its layers the picture is another. */
+/* Without layers the picture differs. */
 static void check(const char *name)
 {
     static Scene scene;

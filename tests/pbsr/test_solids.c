@@ -1,5 +1,7 @@
 /* Solids as translucent layers: as opaque as said, lit and placed as they turn and move, of the same points.
  */
+#include "tests/lists.h"
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -7,8 +9,7 @@
 
 #include <cmocka.h>
 
-#include "render/views/pbsr/pbsr_layers.h"
-#include "render/views/pbsr/pbsr_sets.h"
+#include "render/views/pbsr/pbsr_private.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -45,25 +46,24 @@ static void image_free(SetImage *image)
     free(image->word);
 }
 
-/* Two boxes: one goes 0.1 m along x within 1 s, the other has turned by 70 degrees then, and has moved. */
+/* Two boxes: the first moves 0.1 m along x within 1 s, the second turns by 70 degrees and moves. */
 static WorldDef two_boxes(void)
 {
     WorldDef world = {.dimensions = 3, .solid_count = 2};
-    world.solids[0] = (SolidDef){
-        .kind = SOLID_BOX, .size = {0.4, 0.4, 0.2}, .axis = {0, 1, 0}, .color = {1, 0, 0}, .motion_count = 1};
-    world.solids[0].motions[0] =
-        (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.1, .frequency = 0.25};
+    world.solids[0] =
+        (SolidDef){.kind = SOLID_BOX, .size = {0.4, 0.4, 0.2}, .axis = {0, 1, 0}, .color = {1, 0, 0}};
+    add_solid_motion(&world.solids[0],
+                     (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.1, .frequency = 0.25});
     world.solids[1] = (SolidDef){.kind = SOLID_BOX,
                                  .centre = {0.2, 0.1, 0.1},
                                  .size = {0.3, 0.1, 0.2},
                                  .axis = {1, 0, 1},
                                  .angle_deg = 20,
-                                 .color = {0, 1, 0},
-                                 .motion_count = 2};
-    world.solids[1].motions[0] =
-        (Motion){.kind = MOTION_TURN, .axis = {1, 2, 3}, .angle_deg = 70, .duration = 1};
-    world.solids[1].motions[1] =
-        (Motion){.kind = MOTION_SHAKE, .axis = {0, 1, 0}, .amplitude = 0.1, .frequency = 0.25};
+                                 .color = {0, 1, 0}};
+    add_solid_motion(&world.solids[1],
+                     (Motion){.kind = MOTION_TURN, .axis = {1, 2, 3}, .angle_deg = 70, .duration = 1});
+    add_solid_motion(&world.solids[1],
+                     (Motion){.kind = MOTION_SHAKE, .axis = {0, 1, 0}, .amplitude = 0.1, .frequency = 0.25});
     return world;
 }
 
@@ -114,7 +114,7 @@ static void solids_are_as_opaque_as_said(void **state)
             fail_msg("at %d s: %g, not %g +- %g", time, found, asked, off);
         assert_float_equal(rigid_layer_fraction(&layers.rigid[0]), 1, 0);
         if (time > 0)
-            assert_true(layers.rigid[0].made == made); /* what moves keeps its points */
+            assert_true(layers.rigid[0].made == made); /* moving solids keep points */
         made = layers.rigid[0].made;
     }
     const PbsrDef more = def_of(0.8);
@@ -126,7 +126,7 @@ static void solids_are_as_opaque_as_said(void **state)
     solid_layers_free(&layers);
 }
 
-/* Solids that fill the same place are as opaque as two, not as one. */
+/* Solids in the same place are as opaque as two solids, not as a single solid. */
 static void equal_solids_are_two(void **state)
 {
     (void)state;
@@ -196,7 +196,7 @@ static int apart(uint32_t a, uint32_t b, int shift)
     return abs((int)(a >> shift & 1023) - (int)(b >> shift & 1023));
 }
 
-/* Against points that were placed one by one. */
+/* Against individually placed points. */
 static void solids_stand_as_they_turn(void **state)
 {
     (void)state;

@@ -1,9 +1,9 @@
-/* View `pbsr` on a fluid: the same picture from the same seed, whole at once or bit by bit; what hides its
-   points; what it does with states that are none. */
+/* View `pbsr` on a fluid: the same picture from the same seed, at once or progressively; occluders of
+   points; invalid states. */
 #include "tests/render/fixture.h"
 
 #include "render/views/pbsr/pbsr.h"
-#include "sim/base/parallel.h"
+#include "sim/base/base.h"
 
 enum { SIZE = 96, BYTES = 3 * SIZE * SIZE };
 
@@ -137,7 +137,7 @@ static void pictures_get_better(void **unused)
     ViewDef def = pbsr_view(32);
     double before = 1e9;
     add_layer(&def, PBSR_SURFACE, 0.5, 0.4, 0.8);
-    add_layer(&def, PBSR_SPHERE, 0.3, 0.5, 0.3); /* points that stay, each of its own set */
+    add_layer(&def, PBSR_SPHERE, 0.3, 0.5, 0.3); /* persistent points, each of a separate set */
     pbsr_def(&def)->moving = 4;
     picture_of(&def, NULL, &scenery, whole);
     Renderer *renderer = renderer_for(&def, NULL);
@@ -153,7 +153,7 @@ static void pictures_get_better(void **unused)
         assert_true(difference(now, whole) < before);
         before = difference(now, whole);
     }
-    assert_true(before < 0.01);                      /* sums of other parts */
+    assert_true(before < 0.01);                      /* sums of different parts */
     renderer_draw(renderer, &scenery.buffers, NULL); /* nothing is left to be done */
     renderer_read(renderer, whole);
     assert_memory_equal(whole, now, BYTES);
@@ -204,7 +204,7 @@ static void by_moving(int moving, int repeat, double cell, Scenery *scenery, uin
     renderer_destroy(renderer);
 }
 
-/* Both strew their own points: their pictures differ as those of two seeds do. */
+/* The two fluids use separate points: pictures differ like two seeds. */
 static void the_gpu_draws_the_same(void **unused)
 {
     (void)unused;
@@ -250,7 +250,7 @@ static void fill_values(void)
     }
 }
 
-/* Pictures of one layer, by each way up to the last, differ as those of two seeds do. */
+/* Pictures of a layer, by all ways except the last, differ like two seeds. */
 static void assert_alike(PbsrLayer one, PbsrLayer other, PbsrMethod last)
 {
     static uint8_t first[BYTES], again[BYTES], second[BYTES];
@@ -290,8 +290,8 @@ static void data_look_as_their_formula(void **unused)
                      PBSR_CPU);
 }
 
-/* A ball that is turned is lit as before; a slice lies as it is turned; what is moved stands there, outside
-   the box too. */
+/* A turned ball keeps the lighting; a slice stays as turned; a moved layer is drawn in place, also
+   outside the box. */
 static void layers_move(void **unused)
 {
     (void)unused;
@@ -331,7 +331,7 @@ static int pictures_of(double budget, int repeat, Scenery *scenery)
     return pictures;
 }
 
-/* The first sets are drawn whatever they cost, one for each processor. */
+/* The first sets are drawn at any cost, at least a set per processor. */
 static void budget_is_kept(void **unused)
 {
     (void)unused;
@@ -342,7 +342,7 @@ static void budget_is_kept(void **unused)
     scenery_free(&scenery);
 }
 
-/* Pieces that fill the picture many times over: more points than one invocation makes. */
+/* Pieces covering the picture many times: more points than an invocation makes. */
 static void the_gpu_draws_pieces_near_the_eye(void **unused)
 {
     (void)unused;
@@ -387,7 +387,7 @@ static void solids_hide_points(void **unused)
     scenery_free(&scenery);
 }
 
-/* A ball of the scene is the formula's where it is a layer, and nothing else draws it. */
+/* A ball of the scene follows the formula as a layer, and is not drawn a second time. */
 static void solids_are_a_layer(void **unused)
 {
     (void)unused;
@@ -411,7 +411,7 @@ static void solids_are_a_layer(void **unused)
         picture_of(&def, &world, &scenery, formula);
         world.solid_count = 1;
         assert_true(difference(solid, again) > 0.01);
-        if (difference(solid, formula) > 1.25 * difference(solid, again)) /* its mesh has corners */
+        if (difference(solid, formula) > 1.25 * difference(solid, again)) /* the mesh has corners */
             fail_msg("method %d: %g, not %g", method, difference(solid, formula), difference(solid, again));
     }
     scenery_free(&scenery);
@@ -455,8 +455,8 @@ static double hidden_by(int of, double opacity, PbsrMethod method, Scenery *scen
     return 1 - sum[1] / sum[0];
 }
 
-/* Of volume one spacing deep hides its opacity from the front, 1.6 m or 20 spacings of it nearly all from the
-   side; of a surface one sees both sides. */
+/* A volume a spacing deep hides the set opacity from the front, and nearly everything through 1.6 m or 20
+   spacings from the side; both sides of a surface are visible. */
 static void flat_scenes_are_as_deep_as_the_box(void **unused)
 {
     (void)unused;
@@ -469,7 +469,7 @@ static void flat_scenes_are_as_deep_as_the_box(void **unused)
     scenery_free(&scenery);
 }
 
-/* How much the box's lower edges change the picture: the one at the back, and the one before the fluid. */
+/* Change of the picture by the box's lower edges: the back edge, and the edge in front of the fluid. */
 static void edges_seen(double opacity, Scenery *scenery, double seen[2])
 {
     static uint8_t rgb[2][BYTES];
@@ -495,7 +495,7 @@ static void edges_seen(double opacity, Scenery *scenery, double seen[2])
     }
 }
 
-/* The edge at the back is seen through a slice as far as that is clear, the one before it as it is. */
+/* The back edge is seen through a slice in proportion to the transparency, the front edge unchanged. */
 static void lines_stand_among_layers(void **unused)
 {
     (void)unused;
@@ -512,7 +512,7 @@ static void lines_stand_among_layers(void **unused)
     scenery_free(&scenery);
 }
 
-/* A wave far above the box leaves the other layer as it is alone. */
+/* A wave far above the box leaves the second layer unchanged. */
 static void a_layer_that_cannot_be_is_left_out(void **unused)
 {
     (void)unused;
@@ -542,7 +542,7 @@ static void what_is_lacking_is_said(void **unused)
     assert_null(renderer_missing(renderer));
     add_layer(&def, PBSR_SCALARS + SCALAR_SPEED, 1e6, 0.5, 1);
     add_layer(&def, PBSR_SLICE_Z, 30, 0.5, 1);
-    add_layer(&def, PBSR_SLICE_Z, 30, 0, 1); /* nothing is what it asks for */
+    add_layer(&def, PBSR_SLICE_Z, 30, 0, 1); /* no request */
     assert_true(renderer_set_def(renderer, &def, NULL, &error));
     renderer_draw(renderer, &scenery.buffers, NULL);
     assert_string_equal(renderer_missing(renderer),
@@ -694,7 +694,7 @@ static int pixels_of(const uint8_t *rgb, int red, int green, int blue)
     return count;
 }
 
-/* A patch of each colour; the bar, whose upper end is yellow, where a layer goes by it. */
+/* A patch of each colour; the bar, with a yellow upper end, if coloured by a layer. */
 static void the_legend_names_layers(void **unused)
 {
     (void)unused;
@@ -754,7 +754,7 @@ static void GLAPIENTRY say_little(GLenum what, GLint64 *value)
         *value = block_bytes;
 }
 
-/* The last band's first row, which the block has as its last number. */
+/* The last band's first row, the last number of the block. */
 static PFNGLNAMEDBUFFERSUBDATAPROC named_sub_data;
 static GLint last_band;
 
@@ -767,8 +767,8 @@ static void GLAPIENTRY note_band(GLuint buffer, GLintptr offset, GLsizeiptr size
     named_sub_data(buffer, offset, size, data);
 }
 
-/* Of a driver that sees 35 rows of a set at a time, and a still layer's points in pieces, it is the same to
-   the bit: at once, bit by bit, and by the CPU and the GPU. */
+/* With a driver limited to 35 rows of a set at a time, and a still layer's points in pieces, pictures are
+   equal to the bit: at once, progressively, by CPU and by GPU. */
 static void a_picture_by_bands_is_the_same(void **unused)
 {
     (void)unused;
@@ -794,12 +794,12 @@ static void a_picture_by_bands_is_the_same(void **unused)
         if (way < 2)
             assert_memory_equal(whole, bands, BYTES);
         else
-            assert_true(difference(whole, bands) < 0.01); /* sums of other parts */
+            assert_true(difference(whole, bands) < 0.01); /* sums of different parts */
     }
     scenery_free(&scenery);
 }
 
-/* Cells that a shader sees in pieces, and a surface whose corners it must see all of. */
+/* Cells processed in pieces by a shader, and a surface with corners read as a whole. */
 static void a_cloud_in_pieces_is_the_same(void **unused)
 {
     (void)unused;
@@ -823,7 +823,8 @@ static void a_cloud_in_pieces_is_the_same(void **unused)
     scenery_free(&scenery);
 }
 
-/* Of another world, drawn by the same renderer of the same state, it is that world's picture. */
+/* For a different world drawn by the same renderer at the same state, the picture is of the different
+   world. */
 static void another_world_is_another_picture(void **unused)
 {
     (void)unused;
@@ -867,7 +868,7 @@ static Scenery nameless(size_t every)
     return scenery_of(particles, &state);
 }
 
-/* Particles without a number are not in the mean of those that have one; where none has, it shows. */
+/* Particles with a NaN value do not enter the mean of finite values; without finite values NaN shows. */
 static void no_number_is_no_zero(void **unused)
 {
     (void)unused;

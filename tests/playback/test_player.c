@@ -29,7 +29,7 @@ static size_t shown(Player *player)
     PlayerStatus status;
     ParticleBuffers particles;
     const double until = wall_ms() + 20000;
-    for (int k = 0; k < 4; k++) { /* steps that wait: one comes after the other */
+    for (int k = 0; k < 4; k++) { /* waiting steps: processed in sequence */
         do {
             player_work(player, now_ms);
             player_status(player, &status);

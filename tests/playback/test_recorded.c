@@ -1,8 +1,7 @@
-/* A file of snapshots as views see it: the states to the bit, the scene as it was, and what is no such file.
- */
+/* A file of snapshots for views: states to the bit, the original scene, and errors for invalid files. */
 #include "tests/playback/recorded_fixture.h"
 
-#include "app/scene/keys.h"
+#include "app/scene/scene.h"
 #include "sim/step/method.h"
 #include "slosh/world.h"
 
@@ -49,7 +48,7 @@ static void run_and_read(const char *method)
     const Scene scene = tank_scene(setting);
     const unsigned all = columns_scalars(&scene.world);
     Error error = {{0}};
-    StateCopy lived[STEPS] = {{.room = 0}}, read = {.room = 0};
+    StateCopy lived[STEPS] = {{.capacity = 0}}, read = {.capacity = 0};
     Recorded recorded;
     World *world = world_create(&scene.world, &error);
     SnapshotWriter *file = snapshot_create("a.h5part", &scene, &error);
@@ -191,7 +190,7 @@ static void settings_of_the_view_alone(void **state)
     assert_contains(error.message, "did you mean 'splat'?");
 }
 
-/* ---- files that are not as they should be ---- */
+/* ---- damaged files ---- */
 
 static void edit(void (*change)(hid_t file))
 {
@@ -235,7 +234,7 @@ static void what_is_missing_is_told(void **state)
     Error error = {{0}};
     Notes notes = {.count = 0};
     Recorded recorded;
-    StateCopy still = {.room = 0};
+    StateCopy still = {.capacity = 0};
     edit(remove_pressure);
     open_recorded(&recorded, "a.h5part", &notes);
     assert_string_equal(notes.line[0], "a.h5part: has no pressure; what follows from that cannot be shown");
@@ -322,13 +321,13 @@ static void spoil_particles(hid_t file)
     H5Dclose(densities);
 }
 
-/* No shader gets a place that is none, nor the number of a fluid that is none. */
+/* No shader receives a non-finite position or an invalid fluid number. */
 static void spoilt_particles_are_left_out(void **state)
 {
     (void)state;
     Error error = {{0}};
     Recorded recorded;
-    StateCopy still = {.room = 0};
+    StateCopy still = {.capacity = 0};
     edit(spoil_particles);
     open_recorded(&recorded, "a.h5part", NULL);
     must(recorded_read(&recorded, 2, ~0U, &still, &error), &error);
@@ -357,7 +356,7 @@ static void a_hostile_size_asks_for_no_memory(void **state)
     (void)state;
     Error error = {{0}};
     Recorded recorded;
-    StateCopy still = {.room = 0};
+    StateCopy still = {.capacity = 0};
     edit(huge_field);
     open_recorded(&recorded, "a.h5part", NULL);
     assert_false(recorded_read(&recorded, 1, ~0U, &still, &error));
@@ -420,7 +419,7 @@ static void what_is_no_file_of_snapshots(void **state)
     assert_refused("text.h5part", "is no file of snapshots");
     H5Fclose(H5Fcreate("other.h5part", H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
     assert_refused("other.h5part", "has no whole step; shown is what slosh run has written whole");
-    edit(remove_marks); /* as of another program */
+    edit(remove_marks); /* as of a different program */
     assert_refused("a.h5part",
                    "Step#0 is missing or not whole, but there are 2 behind it, such as 'Step#1'; shown is "
                    "what slosh run has written whole, from Step#0 on");
@@ -439,7 +438,7 @@ static void steps_that_are_not_whole(void **state)
     Error error = {{0}};
     Notes notes = {.count = 0};
     Recorded recorded;
-    StateCopy still = {.room = 0};
+    StateCopy still = {.capacity = 0};
     edit(remove_last_mark);
     open_recorded(&recorded, "a.h5part", &notes);
     assert_int_equal(recorded.steps, 2);
@@ -522,13 +521,13 @@ static void a_file_that_grows(void **state)
     (void)state;
     Error error = {{0}};
     Recorded recorded;
-    StateCopy still = {.room = 0};
+    StateCopy still = {.capacity = 0};
     const Scene scene = tank_scene(NULL);
     SnapshotWriter *file = snapshot_create("a.h5part", &scene, &error);
     must(file, &error);
     append(file, 4, 0);
     open_recorded(&recorded, "a.h5part", NULL);
-    for (int k = 1; k < 300; k++) { /* its directory grows too */
+    for (int k = 1; k < 300; k++) { /* the directory grows too */
         append(file, 4 + (size_t)k, 0.1 * k);
         if (k % 50)
             continue;
@@ -548,7 +547,7 @@ static void a_file_that_grows(void **state)
     assert_string_equal(error.message, "a.h5part: is another file now; open it anew");
     unlink("a.h5part");
     assert_false(recorded_follow(&recorded, &error));
-    must(recorded_read(&recorded, 299, 0, &still, &error), &error); /* the one that it has open */
+    must(recorded_read(&recorded, 299, 0, &still, &error), &error); /* the already open file */
     state_copy_free(&still);
     recorded_close(&recorded);
 }

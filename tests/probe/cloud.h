@@ -4,7 +4,7 @@
 
 #include "tests/sim/fixture.h"
 
-#include "app/run/measure/metric.h"
+#include "app/run/measure/measure.h"
 
 enum { CLOUD_MOST = 60000 };
 

@@ -1,7 +1,7 @@
-/* Probes: their places and columns, gauges of height, means over time, the table that goes on. */
+/* Probes: positions and columns, height gauges, means over time, tables continued after a resume. */
 #include "tests/probe/cloud.h"
 
-#include "app/run/measure/probe.h"
+#include "app/run/measure/measure.h"
 
 #include <unistd.h>
 
@@ -16,15 +16,15 @@ static void columns_have_names(void **state)
 {
     (void)state;
     const WorldDef def = cloud_box(3, 0.05);
-    ProbeList list = {5,
-                      {probe_of("a", PROBE_POINT, PROBE_VELOCITY), probe_of("b", PROBE_HEIGHT, PROBE_SPEED),
-                       probe_of("c", PROBE_LINE, PROBE_DENSITY), probe_of("d", PROBE_PLANE, PROBE_PRESSURE),
-                       probe_of("e", PROBE_FORCE, PROBE_PRESSURE)}};
+    ProbeDef probe[] = {probe_of("a", PROBE_POINT, PROBE_VELOCITY), probe_of("b", PROBE_HEIGHT, PROBE_SPEED),
+                        probe_of("c", PROBE_LINE, PROBE_DENSITY), probe_of("d", PROBE_PLANE, PROBE_PRESSURE),
+                        probe_of("e", PROBE_FORCE, PROBE_PRESSURE)};
+    const ProbeList list = {5, probe};
     int shown[PROBE_SHOWN];
-    snprintf(list.probe[4].on, PROBE_ON_SIZE, "box");
-    list.probe[2].to[1] = 0.4;
-    list.probe[2].count = 2;
-    list.probe[3].along[0] = list.probe[3].across[2] = 0.2;
+    snprintf(probe[4].on, PROBE_ON_SIZE, "box");
+    probe[2].to[1] = 0.4;
+    probe[2].count = 2;
+    probe[3].along[0] = probe[3].across[2] = 0.2;
     static const char *const names[] = {"a.velocity_x", "a.velocity_y", "a.velocity_z", "b.height",
                                         "c_0.density",  "c_1.density",  "d.pressure",   "e.force_x",
                                         "e.force_y",    "e.force_z",    "e.torque_x",   "e.torque_y",
@@ -37,9 +37,9 @@ static void columns_have_names(void **state)
     assert_string_equal(probes_column(probes, 6)->unit, "Pa");
     assert_string_equal(probes_column(probes, 9)->unit, "N");
     assert_string_equal(probes_column(probes, 10)->unit, "N m");
-    assert_int_equal(probe_shown(&list.probe[4], shown), 3);
+    assert_int_equal(probe_shown(&probe[4], shown), 3);
     assert_true(shown[0] == 0 && shown[1] == 1 && shown[2] == 2);
-    assert_true(!probe_list_has_forces(&(ProbeList){.count = 4}) && probe_list_has_forces(&list));
+    assert_true(!probe_list_has_forces(&(ProbeList){4, probe}) && probe_list_has_forces(&list));
     probes_destroy(probes);
 }
 
@@ -48,19 +48,19 @@ static void places_are_read(void **state)
     (void)state;
     const WorldDef def = cloud_box(3, 0.05);
     const Cloud cloud = cloud_at_rest(&def, 0.6);
-    ProbeList list = {3,
-                      {probe_of("line", PROBE_LINE, PROBE_PRESSURE),
-                       probe_of("wall", PROBE_PLANE, PROBE_PRESSURE),
-                       probe_of("over", PROBE_PLANE, PROBE_PRESSURE)}};
+    ProbeDef probe[] = {probe_of("line", PROBE_LINE, PROBE_PRESSURE),
+                        probe_of("wall", PROBE_PLANE, PROBE_PRESSURE),
+                        probe_of("over", PROBE_PLANE, PROBE_PRESSURE)};
+    const ProbeList list = {3, probe};
     float out[8];
-    list.probe[0].to[1] = 0.4;
-    memcpy(list.probe[1].at, (double[]){0.5, 0.2, 0}, sizeof list.probe[1].at);
-    list.probe[1].along[1] = 0.2;
-    list.probe[1].across[2] = 0.6;
-    list.probe[2] = list.probe[1];
-    list.probe[2].at[1] = 0.5; /* the upper half of it is dry */
-    list.probe[2].along[1] = 0.8;
-    list.probe[2].count = 40;
+    probe[0].to[1] = 0.4;
+    memcpy(probe[1].at, (double[]){0.5, 0.2, 0}, sizeof probe[1].at);
+    probe[1].along[1] = 0.2;
+    probe[1].across[2] = 0.6;
+    probe[2] = probe[1];
+    probe[2].at[1] = 0.5; /* the upper half of it is dry */
+    probe[2].along[1] = 0.8;
+    probe[2].count = 40;
     Probes *probes = probes_create(&list, &def);
     assert_int_equal(probes_columns(probes), 7);
     probes_read(probes, &cloud, NULL, out);
@@ -77,19 +77,20 @@ static void forces_are_passed_on(void **state)
     (void)state;
     WorldDef def = cloud_box(3, 0.05);
     const Cloud none = cloud_of(&def);
-    ProbeList list = {
-        2, {probe_of("a", PROBE_FORCE, PROBE_PRESSURE), probe_of("b", PROBE_FORCE, PROBE_PRESSURE)}};
-    Forces felt = {.seconds = 0.1, .box = {{1, 2, 3}, {4, 5, 6}}};
+    ProbeDef probe[] = {probe_of("a", PROBE_FORCE, PROBE_PRESSURE),
+                        probe_of("b", PROBE_FORCE, PROBE_PRESSURE)};
+    const ProbeList list = {2, probe};
+    Forces forces = {.seconds = 0.1, .box = {{1, 2, 3}, {4, 5, 6}}};
     float out[12];
-    felt.solid[1] = (Push){{7, 8, 9}, {10, 11, 12}};
+    forces.solid[1] = (Push){{7, 8, 9}, {10, 11, 12}};
     def.solid_count = 2;
-    snprintf(list.probe[0].on, PROBE_ON_SIZE, "box");
-    snprintf(list.probe[1].on, PROBE_ON_SIZE, "solid_1");
+    snprintf(probe[0].on, PROBE_ON_SIZE, "box");
+    snprintf(probe[1].on, PROBE_ON_SIZE, "solid_1");
     Probes *probes = probes_create(&list, &def);
     probes_read(probes, &none, &(Forces){0}, out);
     for (int k = 0; k < 12; k++)
         assert_true(isnan(out[k]));
-    probes_read(probes, &none, &felt, out);
+    probes_read(probes, &none, &forces, out);
     for (int repeat = 0; repeat < 2; repeat++) {
         for (int k = 0; k < 12; k++)
             assert_true(out[k] == (float)(k + 1));
@@ -102,8 +103,8 @@ static void forces_are_passed_on(void **state)
     } names[] = {{"box", -1},      {"solid_0", 0},   {"solid_1", 1}, {"solid_2", -2},
                  {"solid_-1", -2}, {"solid_1x", -2}, {"floor", -2}};
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
-        snprintf(list.probe[0].on, PROBE_ON_SIZE, "%s", names[k].on);
-        assert_int_equal(probe_on(&list.probe[0], 2), names[k].is);
+        snprintf(probe[0].on, PROBE_ON_SIZE, "%s", names[k].on);
+        assert_int_equal(probe_on(&probe[0], 2), names[k].is);
     }
 }
 
@@ -114,15 +115,16 @@ static void heights_are_those_of_the_surface(void **state)
     (void)state;
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
         const WorldDef def = cloud_box(dimensions, 0.04);
-        ProbeList list = {3,
-                          {probe_of("a", PROBE_HEIGHT, PROBE_SPEED), probe_of("b", PROBE_HEIGHT, PROBE_SPEED),
-                           probe_of("c", PROBE_HEIGHT, PROBE_SPEED)}};
+        ProbeDef probe[] = {probe_of("a", PROBE_HEIGHT, PROBE_SPEED),
+                            probe_of("b", PROBE_HEIGHT, PROBE_SPEED),
+                            probe_of("c", PROBE_HEIGHT, PROBE_SPEED)};
+        const ProbeList list = {3, probe};
         const double feet[3][3] = {{0.013, 0, 0}, {0.5, 0, 0}, {0.2, 0.25, 0}};
         float out[3];
         for (int k = 0; k < 3; k++)
-            memcpy(list.probe[k].at, feet[k], sizeof feet[k]);
+            memcpy(probe[k].at, feet[k], sizeof feet[k]);
         if (dimensions == 3)
-            list.probe[1].at[2] = -0.5;
+            probe[1].at[2] = -0.5;
         Probes *probes = probes_create(&list, &def);
         for (int layers = 1; layers <= 25; layers += 6) {
             const double high = 0.04 * layers;
@@ -170,7 +172,7 @@ static void row(int k, float value[2])
     value[1] = k % 7 ? (float)(1e5 * cos(k)) : NAN;
 }
 
-/* Rows [from, to), ten a frame; one that is taken back stands before row 70. */
+/* Rows [from, to), ten a frame; a frame taken back stands before row 70. */
 static void write_rows(ProbeTable *table, int from, int to)
 {
     Error error = {{0}};
@@ -187,7 +189,7 @@ static void write_rows(ProbeTable *table, int from, int to)
     }
 }
 
-static void read_file(const char *path, char text[1 << 16])
+static void read_text(const char *path, char text[1 << 16])
 {
     FILE *file = fopen(path, "r");
     assert_non_null(file);
@@ -200,10 +202,10 @@ static void a_table_goes_on_to_the_same_bytes(void **state)
 {
     (void)state;
     const WorldDef def = cloud_box(3, 0.05);
-    ProbeList list = {2,
-                      {probe_of("a", PROBE_HEIGHT, PROBE_SPEED), probe_of("b", PROBE_POINT, PROBE_DENSITY)}};
-    list.probe[0].average = 4;
-    list.probe[1].average = 9;
+    ProbeDef probe[] = {probe_of("a", PROBE_HEIGHT, PROBE_SPEED), probe_of("b", PROBE_POINT, PROBE_DENSITY)};
+    const ProbeList list = {2, probe};
+    probe[0].average = 4;
+    probe[1].average = 9;
     Probes *probes = probes_create(&list, &def);
     Error error = {{0}};
     ProbeTable table;
@@ -213,7 +215,7 @@ static void a_table_goes_on_to_the_same_bytes(void **state)
     assert_true(probe_table_close(&table, &error));
     const double sum = table.figures[0].sum;
     probe_table_free(&table);
-    read_file("probes_whole.csv", whole);
+    read_text("probes_whole.csv", whole);
     assert_memory_equal(
         whole, "time [s],a.height [m],a.height_mean [m],b.density [kg/m3],b.density_mean [kg/m3]\n", 80);
     int lines = 0;
@@ -234,7 +236,7 @@ static void a_table_goes_on_to_the_same_bytes(void **state)
         assert_true(probe_table_close(&table, &error));
         assert_true(table.figures[0].sum == sum);
         probe_table_free(&table);
-        read_file("probes_cut.csv", again);
+        read_text("probes_cut.csv", again);
         assert_string_equal(whole, again);
     }
     unlink("probes_whole.csv");
@@ -246,7 +248,8 @@ static void another_table_stays(void **state)
 {
     (void)state;
     const WorldDef def = cloud_box(3, 0.05);
-    const ProbeList list = {1, {probe_of("a", PROBE_POINT, PROBE_SPEED)}};
+    const ProbeDef probe[] = {probe_of("a", PROBE_POINT, PROBE_SPEED)};
+    const ProbeList list = {1, probe};
     Probes *probes = probes_create(&list, &def);
     Error error = {{0}};
     ProbeTable table, other = {.file = NULL};
@@ -256,12 +259,12 @@ static void another_table_stays(void **state)
     fclose(file);
     assert_false(probe_table_open(&table, "probes_other.csv", probes, 0, &error));
     assert_non_null(strstr(error.message, "is no table of this scene's probes"));
-    read_file("probes_other.csv", text);
+    read_text("probes_other.csv", text);
     assert_string_equal(text, "time,force\n0,1\n");
     assert_false(probe_table_open(&table, "probes_other.csv", probes, -1, &error));
     assert_non_null(strstr(error.message, "is there already, and no probes wrote it"));
     assert_false(probe_table_check("probes_other.csv", &error));
-    read_file("probes_other.csv", text);
+    read_text("probes_other.csv", text);
     assert_string_equal(text, "time,force\n0,1\n");
     unlink("probes_other.csv");
     assert_true(probe_table_check("probes_other.csv", &error));

@@ -1,7 +1,7 @@
 /* Sensors against weighted least squares over all particles, and against fields that are known. */
 #include "tests/probe/cloud.h"
 
-#include "app/run/measure/probe.h"
+#include "app/run/measure/measure.h"
 
 static unsigned seed = 1;
 
@@ -43,8 +43,8 @@ static double away(const WorldDef *def, const Sensor *sensor, const float *x, do
     return sqrt(r2);
 }
 
-/* The pressure; 1e-4 of the radius squared times the weights is added to the moments about the mean, as the
-   sensors have it: about the mean, so it is a particle's distance there that is bound. */
+/* The pressure. The sensors add 1e-4 of the radius squared times the weights to the moments about the
+   mean, so the bound is for a particle's distance from the mean. */
 static double reference(const WorldDef *def, const Sensor *sensor, const Cloud *cloud, double *weights)
 {
     const int n = def->dimensions + 1;
@@ -176,7 +176,7 @@ static void the_surface_is_half_full(void **state)
     assert_true(reading.filling == 0 && reading.pressure == 0);
 }
 
-/* What a drop says is no more than what it has, however few its particles. */
+/* A drop never reports more than the drop's total, however few the particles. */
 static void few_particles_are_not_extrapolated(void **state)
 {
     (void)state;
@@ -191,7 +191,7 @@ static void few_particles_are_not_extrapolated(void **state)
     assert_true(read_at(&def, &cloud, 0, 0.5, 0, 0.12).pressure == 0);
 }
 
-/* Where a solid is no fluid can be: the ball of a sensor on its face is full with what is in front of it. */
+/* No fluid can be inside a solid: a sensor's ball on a solid's face is full with the fluid in front. */
 static void solids_are_no_place_for_fluid(void **state)
 {
     (void)state;

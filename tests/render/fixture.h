@@ -10,12 +10,12 @@
 #include <cmocka.h>
 
 #include "app/run/offscreen.h"
-#include "render/particles/upload.h"
+#include "render/particles/particles.h"
 #include "render/renderer.h"
 #include "render/views/splat/splat.h"
 #include "render/views/volume/volume.h"
 #include "shaders/shared/bindings.h"
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 #include "tests/gl/draw_check.h"
 
 #include <epoxy/gl.h>
@@ -26,8 +26,7 @@
 
 static __attribute__((unused)) Headless *test_context;
 
-/* Where the environment wants another renderer than the one that is there, nothing is tested (ctest:
- * skipped). */
+/* If the environment requests a different renderer than the present, tests are skipped (ctest: skipped). */
 static inline void expect_renderer(void)
 {
     const char *wanted = getenv("SLOSH_TEST_RENDERER"),
@@ -49,6 +48,7 @@ static inline int context_setup(void **state)
         return 1;
     }
     gl_debug_install();
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS); /* a message belongs to the test that made the error */
     draw_check_install();
     return 0;
 }
@@ -78,8 +78,8 @@ static inline unsigned texel(unsigned format, unsigned unit)
     return texture;
 }
 
-/* What the renderer binds for a view, where a test draws one without it: shadows that nothing casts. Returns
-   the light on the floor, of which there is none. */
+/* The renderer's bindings for a view drawn by a test without a renderer: empty shadows. Returns the light
+   on the floor, zero. */
 static inline unsigned no_shadows(void)
 {
     static unsigned fluid, solid, floor_light;
@@ -139,7 +139,7 @@ static inline Particles *particles_wave(double spacing)
     return particles;
 }
 
-/* Takes out those whose centres are in a solid, or nearer to one than half a spacing. */
+/* Removes particles with centres inside a solid, or nearer to a solid than half a spacing. */
 static inline void particles_spare(Particles *particles, const WorldDef *world, double spacing)
 {
     size_t count = particles->count;
@@ -171,7 +171,7 @@ static inline ViewDef bare_view(void)
 {
     ViewDef def = view_def_default();
     def.legend = def.box = def.floor = false;
-    snprintf(def.colormap, sizeof def.colormap, "viridis"); /* whose colours tests know */
+    snprintf(def.colormap, sizeof def.colormap, "viridis"); /* with colours known to tests */
     splat_def(&def)->drops = false;
     splat_def(&def)->shape = SPLAT_PERSPECTIVE, splat_def(&def)->filter = SPLAT_NO_FILTER;
     return def;
@@ -212,8 +212,8 @@ static inline Upload *upload_particles(const Particles *particles, const Particl
     return upload;
 }
 
-/* Hardware snaps corners to 1/256 of a pixel, and with them all that it interpolates; here the place of the
-   k-th of four pictures beside, in pixels. The bounds of a value grow by what it differs there. */
+/* Hardware snaps corners to 1/256 of a pixel, with all interpolated values. Returns the offset of the
+   k-th of four neighbouring pictures, in pixels. The bounds of a value grow by the differences. */
 enum { SNAP_PLACES = 4 };
 
 static inline bool snaps(void)

@@ -1,4 +1,4 @@
-/* What the tests of raycasting share: volumes filled from functions, and pictures of them in 32 bits. */
+/* Common parts of raycasting tests: volumes filled from functions, and pictures in 32 bits. */
 #ifndef SLOSH_RAYCAST_FIXTURE_H
 #define SLOSH_RAYCAST_FIXTURE_H
 
@@ -58,7 +58,7 @@ static inline unsigned ray_texture(const VolumeGrid *grid, const float *values)
     return texture;
 }
 
-/* Of cubic cells, from the corner on. Its support is nearly none, as fields here rise as they like. */
+/* Of cubic cells, from the corner. The support is nearly zero, as fields here rise arbitrarily. */
 static inline void ray_volume(RayScene *scene, const VolumeGrid *grid, FieldAt field, const void *context)
 {
     const int *size = grid->size;
@@ -108,7 +108,7 @@ static inline RayPixel *ray_read(const Target *target)
     return pixels;
 }
 
-/* The one that draws that def: shaders take long to compile, so the last is kept. */
+/* The raycaster for the def: shaders take long to compile, so the last raycaster is cached. */
 static inline Raycast *ray_caster(const Subject *subject)
 {
     static Raycast *raycast;
@@ -134,9 +134,9 @@ static inline RayPixel *ray_drawn(RayScene *scene, bool plain)
     Target target = ray_target(scene);
     Raycast *raycast = ray_caster(&subject);
     frame_make(&scene->frame, &subject, &scene->state, &target,
-               frame_ball_radii(&scene->def, &scene->state, 1), (CoveredParts){0});
+               view_ball_radii(&scene->def, &scene->state, 1), (CoveredParts){0});
     scene->frame.plain = plain;
-    scene->frame.floor_light = no_shadows();
+    scene->frame.floor.light = no_shadows();
     unsigned uniforms = frame_uniforms_create();
     frame_uniforms_update(uniforms, &scene->frame, scene->state.box_size, scene->state.spacing);
     target_begin(&target);
@@ -165,8 +165,7 @@ static inline void ray_of(const RayScene *scene, int x, int y, double from[3], d
         from[k] = start[k], to[k] = end[k] - start[k];
 }
 
-/* t of both places where the ray meets a sphere, and how squarely: the cosine there. False where it misses.
- */
+/* t at both intersections of ray and sphere, and the cosine of incidence. False on a miss. */
 static inline bool ray_meets_sphere(const double from[3], const double to[3], const double centre[3],
                                     double radius, double t[2], double *cosine)
 {

@@ -1,8 +1,8 @@
-/* What the tests of solids share: a scene of fixed particles and solids, and pictures of it. */
+/* Common parts of the solids tests: a scene of fixed particles and solids, and pictures. */
 #ifndef SLOSH_SOLIDS_FIXTURE_H
 #define SLOSH_SOLIDS_FIXTURE_H
 
-#include "render/frame/camera.h"
+#include "render/frame/frame.h"
 #include "tests/mesh_models.h"
 #include "tests/render/fixture.h"
 
@@ -24,7 +24,7 @@ static inline SolidsScene scene_create(void)
     return scene;
 }
 
-/* A ball of chords that leave it by 2e-4 m, for all scenes of a program. */
+/* A ball of chords within 2e-4 m, for all scenes of a program. */
 static inline const MeshShape *scene_mesh(void)
 {
     enum { STEPS = 40 };

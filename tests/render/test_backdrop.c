@@ -45,8 +45,8 @@ static void draw(Renderer *renderer, const ParticleBuffers *buffers, uint8_t *rg
     renderer_read(renderer, rgb);
 }
 
-/* The next four pictures of the stand, of which the first lays the backdrop, the second keeps it and the
-   others copy it, against that of a new renderer. */
+/* The next four pictures of the renderer: the first draws the backdrop, the second caches the backdrop,
+   the rest copy, against a new renderer. */
 static void check(Stand *stand)
 {
     static uint8_t drawn[BYTES], anew[BYTES];
@@ -75,7 +75,7 @@ static void test_still(void **state)
 
 static void test_box_moves(void **state)
 {
-    (void)state; /* within its free way, where the camera stands; tilted; beyond it */
+    (void)state; /* inside the clear path, at the camera; tilted; beyond the path */
     Stand stand = stand_create();
     for (int i = 0; i < 6; i++) {
         stand.buffers.box.position[0] = 0.1 * i * i;

@@ -43,7 +43,7 @@ static void rises_in_lightness(const char *name)
     }
 }
 
-/* All the way: that is what these are made for. */
+/* The full range: the purpose of the maps. */
 static void test_lightness(void **state)
 {
     (void)state;
@@ -51,7 +51,7 @@ static void test_lightness(void **state)
     rises_in_lightness("mako");
 }
 
-/* What nobody chose goes with the scalar. */
+/* Automatic choices follow the scalar. */
 static void test_auto_goes_with_the_scalar(void **state)
 {
     (void)state;
@@ -71,7 +71,7 @@ static void center_color(ViewDef *def, double speed, unsigned fluid, uint8_t col
     Error error = {0};
     ParticleBuffers buffers, box = box_state(2, 0.4);
     Particles *particles = calloc(1, sizeof *particles);
-    particles_add(particles, 0.8, 0.5, 0, 1.7, 1 - fluid); /* another, aside */
+    particles_add(particles, 0.8, 0.5, 0, 1.7, 1 - fluid); /* a second, aside */
     particles_add(particles, 0, 0.5, 0, speed, fluid);
     Upload *upload = upload_particles(particles, &box, &buffers);
     const WorldDef world = bare_world();

@@ -1,7 +1,6 @@
 /* Opacity, size and colour of particles by scalars through curves: the view `spheres` against formulas. */
 #include "tests/render/fixture.h"
 
-#include "render/frame/camera.h"
 #include "render/frame/frame.h"
 #include "render/particles/particles.h"
 
@@ -169,7 +168,7 @@ static void sizes_are_exact(void **state)
     free(rig);
 }
 
-/* Spheres of the view splat, each with its own size and apart from the others, against those of `spheres`. */
+/* Spheres of the view splat, each with a separate size and gaps between, against `spheres`. */
 static void splats_have_the_same_sizes(void **state)
 {
     (void)state;
@@ -249,7 +248,7 @@ static int covered(const float *depth)
     return count;
 }
 
-/* `deep` particles one behind the other: so much of their disc is covered, of some 700 pixels. */
+/* `deep` particles in a row: covered share of a disc of some 700 pixels. */
 static double coverage(double opacity, int deep, int id)
 {
     static float depth[WIDTH * HEIGHT];
@@ -271,8 +270,8 @@ static double coverage(double opacity, int deep, int id)
     return share[1] / share[0];
 }
 
-/* Of one particle by its own even door; of several as blending would have it, 1 - (1 - a)^n, in the mean over
- * ids. */
+/* A single particle by an even threshold; several particles like blending, 1 - (1 - a)^n, in the mean
+   over ids. */
 static void doors_cover_as_much_as_is_opaque(void **state)
 {
     (void)state;
@@ -290,7 +289,7 @@ static void doors_cover_as_much_as_is_opaque(void **state)
     assert_true(coverage(0, 1, 5) == 0 && coverage(1, 1, 5) == 1);
 }
 
-/* The door is the id's: neither the place among the particles nor another particle changes it. */
+/* The threshold depends on the id only, not on order or further particles. */
 static void a_door_is_of_an_id(void **state)
 {
     (void)state;

@@ -1,19 +1,19 @@
 /* Derived scalars and vectors: linear fields on a lattice, scattered particles against sums over all in
-   double precision, two dimensions, periodic sides, what is no number; and nothing at all. */
+   double precision, two dimensions, periodic sides, non-finite numbers; and no particles. */
 #include "tests/render/fixture.h"
 
-#include "render/particles/derived.h"
+#include "render/particles/particles.h"
 
 enum { ALL = 6000 };
 
-/* What a test says of its particles, and what comes back. */
+/* A test's particles, and the result. */
 typedef struct Cloud {
     ParticleBuffers state;
     DerivedSpace space;
     float position[4 * ALL], velocity[4 * ALL], density[ALL], pressure[ALL], three[3][ALL];
     float scalar[SCALAR_COUNT][ALL], vector[VECTOR_COUNT][4 * ALL];
     double slowest;      /* m/s */
-    float fast_air[ALL]; /* trapped air of those that are not slower */
+    float fast_air[ALL]; /* trapped air of particles at least as fast */
 } Cloud;
 
 static void add(Cloud *cloud, double x, double y, double z, double volume)
@@ -24,7 +24,7 @@ static void add(Cloud *cloud, double x, double y, double z, double volume)
     cloud->density[i] = 1000, cloud->pressure[i] = 0;
 }
 
-/* A box of that many places each way, filled; one layer: two dimensions. */
+/* A filled box with the given number of places per axis; a single layer: two dimensions. */
 static Cloud *lattice(int nx, int ny, int nz, double spacing, double support)
 {
     Cloud *cloud = calloc(1, sizeof *cloud);
@@ -86,10 +86,11 @@ static void read_back(const ParticleAttribute *from, size_t count, float *to)
         glGetNamedBufferSubData(from->buffer, (GLintptr)from->offset, (GLsizeiptr)(count * from->stride), to);
 }
 
-/* Everything that there is. */
+/* All existing scalars and vectors. */
 static void derive(Cloud *cloud)
 {
-    const ParticleWants wants = {SCALAR_BIT(SCALAR_COUNT) - 1, VECTOR_BIT(VECTOR_COUNT) - 1, 0};
+    const ParticleWants wants = {.scalars = SCALAR_BIT(SCALAR_COUNT) - 1,
+                                 .vectors = VECTOR_BIT(VECTOR_COUNT) - 1};
     const size_t count = cloud->state.count;
     Error error = {0};
     ParticleBuffers particles;
@@ -131,7 +132,7 @@ static void derive(Cloud *cloud)
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     read_back(&foam, count, cloud->fast_air);
     read_back(&particles.scalar[SCALAR_TRAPPED_AIR], count,
-              cloud->scalar[SCALAR_TRAPPED_AIR]); /* as it was */
+              cloud->scalar[SCALAR_TRAPPED_AIR]); /* unchanged */
     derived_destroy(&derived);
     upload_destroy(upload);
 }
@@ -202,9 +203,8 @@ static void a_linear_pressure_has_its_gradient(void **state)
     free(cloud);
 }
 
-/* Of fluid that comes together at the rate a the mean of (1 - cos) |v| is 2 a times the mean distance, which
-   W weighs to 0.6 h; of fluid that goes apart there is none, and the turn of a rigid body has pi/4 of the
-   half. */
+/* For fluid converging at the rate a, the mean of (1 - cos) |v| is 2 a times the mean distance; W weighs
+   the distance to 0.6 h. Diverging fluid gives zero, and a rigid rotation gives pi/4 of the half. */
 static void trapped_air_is_that_of_smooth_flows(void **state)
 {
     (void)state;
@@ -222,7 +222,7 @@ static void trapped_air_is_that_of_smooth_flows(void **state)
     }
 }
 
-/* One particle flies at another, which sees as much of it; away from it neither does. */
+/* A particle approaches a second particle, with a symmetric result; when receding the result is zero. */
 static void two_that_meet_trap_air(void **state)
 {
     (void)state;
@@ -240,7 +240,7 @@ static void two_that_meet_trap_air(void **state)
     }
 }
 
-/* What foam asks for: that of fast particles which air is near, and nothing is summed up for others. */
+/* The input of foam: trapped air of fast particles near air; no sums for slow particles. */
 static void trapped_air_of_fast_particles_alone(void **state)
 {
     (void)state;
@@ -259,8 +259,8 @@ static void trapped_air_of_fast_particles_alone(void **state)
     free(cloud);
 }
 
-/* A tank half full whose fluid comes together everywhere: the top foams, up to its walls, and nothing below,
- * at walls neither. */
+/* A tank half full of converging fluid: the top foams up to the walls, and the rest does not, even at
+   walls. */
 static void trapped_air_below_the_top_is_none(void **state)
 {
     (void)state;
@@ -410,7 +410,7 @@ static void scattered_particles_are_as_summed_over_all(void **state)
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
         Cloud *cloud = scattered(dimensions == 2 ? 2000 : 4000, 0.03, dimensions == 2);
         derive(cloud);
-        assert_true(compare(cloud) < 9); /* those at corners too */
+        assert_true(compare(cloud) < 9); /* corners too */
         free(cloud);
     }
 }
@@ -459,9 +459,9 @@ static void what_needs_no_neighbours_is_of_each_particle(void **state)
     free(cloud);
 }
 
-/* ---- what is no number, and nothing ---- */
+/* ---- non-finite numbers, and no particles ---- */
 
-/* A velocity that is none spoils its own particle's alone; a place that is none has no neighbours. */
+/* A non-finite velocity spoils only the particle's own value; a non-finite position has no neighbours. */
 static void no_number_does_not_spread(void **state)
 {
     (void)state;

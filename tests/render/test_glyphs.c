@@ -1,9 +1,8 @@
-/* Overlay `glyphs`: where arrows stand, how long they are, and what they do with numbers that are none. */
+/* Overlay `glyphs`: positions and lengths of arrows, and handling of non-finite numbers. */
 #include "tests/render/fixture.h"
 
 #include "render/overlays/glyphs/glyphs_private.h"
-#include "render/particles/derived.h"
-#include "render/particles/plane.h"
+#include "render/particles/particles.h"
 
 #include <float.h>
 
@@ -90,7 +89,7 @@ typedef struct Arrow {
 
 static unsigned left_out; /* of the arrows_of last */
 
-/* How many arrows that state has, and they themselves; the caller frees them. */
+/* The state's arrows and the count; freed by the caller. */
 static Arrow *arrows_of(const Wind *wind, const ViewDef *def, size_t *count, double *usual)
 {
     Error error = {0};
@@ -250,8 +249,8 @@ static void the_usual_length_is_a_percentile(void **state)
     wind_destroy(wind);
 }
 
-/* What is not waited for is the same a picture later; the first is waited for, and the first of another
-   vector, which has another unit. */
+/* A value read without waiting is the same, a picture later; the first read waits, and the first read of
+   a new vector with a different unit too. */
 static void what_is_late_is_the_same(void **state)
 {
     (void)state;
@@ -293,7 +292,7 @@ static void what_is_late_is_the_same(void **state)
     wind_destroy(wind);
 }
 
-/* A box that moves and turns: at each place its velocity by the world, in its own axes. */
+/* A moving and turning box: at each place the world velocity in the box's axes. */
 static void the_box_has_a_motion_of_its_own(void **state)
 {
     (void)state;
@@ -353,7 +352,7 @@ static void vorticity_has_arrows(void **state)
     wind_destroy(wind);
 }
 
-/* Only what they read: ids choose among particles, and the box moves without the fluid's velocity. */
+/* Only inputs actually read: ids choose among particles, and the box moves without the fluid's velocity. */
 static void glyphs_want_what_they_read(void **state)
 {
     (void)state;
@@ -406,8 +405,8 @@ static double reach_of(const uint8_t *rgb, const uint8_t *empty, const double fr
     return reach;
 }
 
-/* From its foot to foot + scale x vector, to the pixel, in every direction: the last 1.7 of a tip, whose half
-   width is three tenths of what is left, may fall between the centres of pixels, and the foot is a disc. */
+/* From the foot to foot + scale x vector, to the pixel, in every direction. The last 1.7 pixels of a tip,
+   with a half width of three tenths of the rest, may fall between pixel centres; the foot is a disc. */
 static void an_arrow_ends_where_it_should(void **state)
 {
     (void)state;
@@ -459,7 +458,7 @@ static void what_is_no_number_is_no_arrow(void **state)
     double usual;
     free(arrows_of(wind, &def, &count, &usual));
     assert_int_equal(count, 0);
-    assert_int_equal(left_out, 3); /* and one stands still */
+    assert_int_equal(left_out, 3); /* and an arrow stands still */
     assert_true(usual == 0);
     picture_of(wind, &none, empty);
     picture_of(wind, &def, rgb);
@@ -504,7 +503,7 @@ static void a_colour_that_is_no_number(void **state)
     wind_destroy(wind);
 }
 
-/* Behind a view's surface there is nothing to be seen of them. */
+/* Behind a view's surface no arrow is visible. */
 static void the_view_hides_what_is_behind(void **state)
 {
     (void)state;

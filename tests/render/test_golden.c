@@ -1,7 +1,5 @@
-/* Pictures of fixed particles against those in tests/images: at most 0.5 % of the pixels differ by more than
-   8 of 255.
-
-   SLOSH_GOLDEN=write writes them anew: look at them before they are kept. */
+/* Pictures of fixed particles against tests/images: at most 0.5 % of the pixels differ by more than 8 of
+   255. SLOSH_GOLDEN=write rewrites the images: look at the images before committing. */
 #include "app/files/pictures.h"
 #include "render/overlays/glyphs/glyphs.h"
 #include "render/overlays/trails/trails.h"
@@ -185,7 +183,7 @@ static void test_fluid_legend(void **state)
     check(&golden);
 }
 
-/* Opacity, size and bent colours, and what the legend says of them. */
+/* Opacity, size and bent colours, with legend. */
 static void test_curves(void **state)
 {
     (void)state;
@@ -206,7 +204,7 @@ static void test_nothing(void **state)
     check(&golden);
 }
 
-/* A ball that swims, a pillar, a block that sinks, and the second fluid in a bowl. */
+/* A floating ball, a pillar, a sinking block, and the second fluid in a bowl. */
 static void test_solids(void **state)
 {
     (void)state;
@@ -351,7 +349,7 @@ static void test_slice_flat(void **state)
     check(&golden);
 }
 
-/* Two fluids over the floor, and a ball that stands in one of them. */
+/* Two fluids over the floor, and a ball partly in a fluid. */
 static void cast_volume(const char *name, RaycastLook look)
 {
     static const SolidDef ball = {SOLID_SPHERE, .centre = {-0.45, 0.4, 0.1}, .radius = 0.25,
@@ -422,7 +420,7 @@ static void test_volume_curve(void **state)
     check(&golden);
 }
 
-/* The measure itself: one shifted picture must not pass. */
+/* The measure: a shifted picture must fail. */
 static void test_difference_is_seen(void **state)
 {
     (void)state;

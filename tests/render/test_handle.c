@@ -1,4 +1,4 @@
-/* Handles (render/frame/camera.h): pixels and rays, which one is under the mouse, where drags take them. */
+/* Handles (render/frame/frame.h): pixels and rays, which one is under the mouse, where drags take them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "render/frame/camera.h"
+#include "render/frame/frame.h"
 #include "render/renderer.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 
 enum { WIDE = 400, HIGH = 300 };
 
-/* A box that has moved and turned, seen by a camera of its own. */
+/* A moved and turned box, seen by a fixed camera. */
 static Sight sight_from(double x, double y, double z)
 {
     static const double size[3] = {1, 1, 1};
@@ -61,7 +61,7 @@ static void a_ray_goes_through_what_its_pixel_shows(void **state)
     }
 }
 
-/* What a camera looks at is in the middle of what is free, as large as without anything over the picture. */
+/* The camera's target is in the middle of the free area, as large as without covered parts. */
 static void what_is_looked_at_is_in_the_middle_of_what_is_free(void **state)
 {
     (void)state;
@@ -122,7 +122,7 @@ static void the_nearest_handle_is_found(void **state)
         assert_true(sight_pixel(&sight, corner, ring));
         assert_int_equal(handle_at_pixel(&sight, handles, 2, ring), 1);
     }
-    Handle two[] = {handles[0], handles[0]}; /* both within reach */
+    Handle two[] = {handles[0], handles[0]}; /* two within reach */
     two[1].at[0] += 0.01;
     for (int i = 0; i < 2; i++) {
         assert_true(sight_pixel(&sight, two[i].at, pixel) && sight_pixel(&sight, two[1 - i].at, ring));
@@ -131,7 +131,7 @@ static void the_nearest_handle_is_found(void **state)
     }
 }
 
-/* The mouse goes from what shows `from` to what shows `to`. */
+/* The mouse goes from the pixel of `from` to the pixel of `to`. */
 static bool drag(const Sight *sight, const Handle *handle, const double from[3], const double to[3],
                  double at[3])
 {
@@ -161,7 +161,7 @@ static void a_handle_stays_under_the_mouse(void **state)
     assert_near(at, sphere, 1e-3);
 }
 
-/* Where the mouse takes it beside its middle, it does not jump. */
+/* Grabbed beside the middle, the handle does not jump. */
 static void a_handle_does_not_jump(void **state)
 {
     (void)state;

@@ -61,7 +61,7 @@ static void test_no_driver(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_no_driver), /* first: before this process has loaded one */
+        cmocka_unit_test(test_no_driver), /* first: before this process has loaded a driver */
         cmocka_unit_test(test_core_context),
         cmocka_unit_test(test_first_gpu),
         cmocka_unit_test(test_no_such_gpu),

@@ -1,4 +1,4 @@
-/* PNG files: what is written is what is read, and a write that fails is told. */
+/* PNG files: a round trip is exact, and a failed write is reported. */
 #include "tests/render/fixture.h"
 #include "tests/scratch.h"
 

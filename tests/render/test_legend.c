@@ -1,7 +1,7 @@
 /* The legend's numbers, and the automatic camera that leaves room around the box. */
 #include "tests/render/fixture.h"
 
-#include "render/frame/camera.h"
+#include "render/frame/frame.h"
 #include "render/frame/passes.h"
 
 static void test_round_ticks(void **state)
@@ -61,11 +61,11 @@ static void test_camera_shows_the_box(void **state)
                 assert_true(aside < 0.85 && depth > 0 && depth < 1);
                 largest = fmax(largest, aside);
             }
-            assert_true(largest > 0.6); /* and fills it */
+            assert_true(largest > 0.6); /* and fills the room */
         }
 }
 
-/* Beside a legend that covers the right third nothing of the box is hidden. */
+/* Beside a legend over the right third no part of the box is hidden. */
 static void test_camera_leaves_room_for_the_legend(void **state)
 {
     (void)state;
@@ -94,7 +94,7 @@ static double fluid_legend(const char *name, double blue, double viscosity)
     return legend_width_pixels(&def, &world, 720);
 }
 
-/* A water that flows like honey says so, by its name or its colour; others, and water itself, do not. */
+/* Water as viscous as honey is noted, by name or colour; different fluids, and true water, have no note. */
 static void test_legend_tells_what_is_no_water(void **state)
 {
     (void)state;
@@ -125,7 +125,7 @@ static void test_camera_leaves_room_for_a_panel(void **state)
     }
 }
 
-/* A shaken box moves in the picture; one that drives off is followed. */
+/* A shaken box moves in the picture; a departing box is followed. */
 static void test_camera_follows_late(void **state)
 {
     (void)state;
@@ -154,7 +154,7 @@ static void test_legend_is_drawn(void **state)
         def.box = false;
         def.range_auto = false;
         def.range[1] = 1;
-        none.scalar[SCALAR_SPEED].buffer = 1; /* only asked whether it is there: nothing is drawn from it */
+        none.scalar[SCALAR_SPEED].buffer = 1; /* only a check for presence: no drawing */
         uint8_t *rgb = malloc(3 * (size_t)width * (size_t)height);
         Renderer *renderer = renderer_create(&def, NULL, width, height, &error);
         assert_non_null(renderer);
@@ -169,7 +169,7 @@ static void test_legend_is_drawn(void **state)
     }
 }
 
-/* A fluid's colour in the legend is that of its particles: of linear light, as a screen has it. */
+/* A fluid's colour in the legend equals the particles' colour: linear light converted for a screen. */
 static void test_fluids_have_their_colors(void **state)
 {
     (void)state;

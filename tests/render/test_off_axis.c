@@ -1,6 +1,6 @@
-/* Beside what covers a side of the picture: every view, solid, line and shadow as in a picture that is wider
-   on the other side, has the same axis in its middle, and nothing covered. So what is drawn off the axis is
-   held against what is drawn on it, and whatever forgets the axis stands beside its place. */
+/* Beside a covered side of the picture: every view, solid, line and shadow equals a wider picture with
+   the same axis in the middle, without a cover. So off-axis drawing is compared with on-axis drawing, and
+   a pass without the axis shows a displacement. */
 #include "render/overlays/glyphs/glyphs.h"
 #include "render/overlays/trails/trails.h"
 #include "render/views/pbsr/pbsr.h"
@@ -167,7 +167,7 @@ static void of_planes(void **state)
     check("slice before particles", &def, false);
 }
 
-/* Points of chance fall on other pixels in a wider picture: in number they are the same, not to the pixel. */
+/* Random points fall on different pixels in a wider picture: equal in number, not in pixels. */
 static void of_points(void **state)
 {
     (void)state;

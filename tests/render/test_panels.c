@@ -1,8 +1,8 @@
-/* Panels: where they lie; each the bits of a renderer alone; one range for one scalar; titles. */
+/* Panels: layout; each panel has the bits of a separate renderer; a common range per scalar; titles. */
 #include "tests/render/fixture.h"
 
-#include "render/panels.h"
-#include "sim/base/color.h"
+#include "render/renderer.h"
+#include "sim/base/base.h"
 
 #include <math.h>
 
@@ -65,7 +65,8 @@ static void stand_destroy(Stand *stand)
     }
 }
 
-/* What a renderer alone draws of that state in that place, against the panel; from row `from` on. */
+/* A separate renderer's picture of the state at the panel's place, against the panel; from row `from` on.
+ */
 static void assert_panel(const uint8_t *rgb, int width, const PanelRect *at, const ViewDef *def,
                          const WorldDef *world, const ParticleBuffers *particles, int from)
 {
@@ -103,7 +104,7 @@ static void panels_are_pictures_of_their_own(void **state)
     for (int count = 1; count <= PANELS_MAX; count++) {
         Panels *panels = panels_create(subjects, count, 90, 90, &error);
         assert_non_null(panels);
-        panels_draw(panels, states, NULL); /* what one picture leaves is no matter to the next one */
+        panels_draw(panels, states, NULL); /* leftovers of a picture do not affect the next picture */
         assert_true(panels_resize(panels, WIDTH, HEIGHT, &error));
         panels_draw(panels, states, NULL);
         assert_true(panels_read(panels, rgb, &error));
@@ -120,7 +121,8 @@ static void panels_are_pictures_of_their_own(void **state)
     stand_destroy(&stand);
 }
 
-/* By the first that shows it; the others draw what that one has, and memory goes with the wish. */
+/* By the first panel with the scalar; the rest share the buffer, and memory is freed with the last
+   request. */
 static void a_state_is_derived_once(void **state)
 {
     (void)state;
@@ -284,7 +286,7 @@ static void a_scalar_has_one_range(void **state)
     assert_true(panels_read(panels, rgb, &error));
     for (int i = 0; i < 2; i++)
         assert_panel(rgb, WIDTH, &panels_rects(panels)[i], &fixed, &world, states[i], 0);
-    assert_true(panels_set_def(panels, 1, &fixed, &world, &error)); /* then the other one is alone */
+    assert_true(panels_set_def(panels, 1, &fixed, &world, &error)); /* then the second is alone */
     panels_draw(panels, states, NULL);
     panels_range(panels, 0, ranges[0]);
     assert_true(ranges[0][1] == own[0][1]);
@@ -297,7 +299,7 @@ static void a_scalar_has_one_range(void **state)
     stand_destroy(&stand);
 }
 
-/* The places of boxes that are alike are so too, though one legend is wide and the other narrow. */
+/* Equal boxes have equal places, even with legends of different width. */
 static void cameras_are_the_same(void **state)
 {
     (void)state;
@@ -347,7 +349,7 @@ static void a_title_covers_its_rows_alone(void **state)
     assert_true(panels_read(panels, rgb, &error));
     assert_true(rows > 20 && rows < HEIGHT / 4);
     assert_memory_not_equal(rgb, bare, 3 * (size_t)(WIDTH * rows));
-    for (int y = 0; y < rows; y++) { /* it ends before the panel does, and is that panel's alone */
+    for (int y = 0; y < rows; y++) { /* ends before the panel, and belongs to the panel alone */
         const size_t at = 3 * (size_t)(y * WIDTH + p[0].width - 8);
         assert_memory_equal(rgb + at, bare + at, 3 * (size_t)(WIDTH - p[0].width + 8));
     }

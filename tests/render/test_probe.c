@@ -1,15 +1,15 @@
-/* What the mouse finds in pictures of particles, and at places: against all particles, one by one. */
+/* Results of probing pictures by mouse and at places: against a loop over all particles. */
 #include "tests/render/fixture.h"
 
 #include "render/frame/view.h"
-#include "render/particles/plane.h"
+#include "render/particles/particles.h"
 #include "render/views/pbsr/pbsr.h"
 #include "sim/step/method.h"
 
 enum { WIDE = 160, HIGH = 120 };
 static const double SPACING = 0.08;
 
-/* A picture, and all that its particles have. */
+/* A picture, and all values of the particles. */
 typedef struct Probed {
     Particles *particles;
     float *velocity;
@@ -117,8 +117,7 @@ static ViewProbeAnswers ask_pixel(const Probed *probed, double x, double y)
     return ask(probed, &asks);
 }
 
-/* The particle whose ball a ray meets first; -1: none. `margin`: by how much, of a radius, the nearest miss
-   or another ball leaves it open. */
+/* The particle with the first ball along a ray; -1: none. `margin`: distance from ambiguity, in radii. */
 static int first_ball(const Probed *probed, const double pixel[2], const double *radii, double *margin)
 {
     SightRay ray;

@@ -2,7 +2,7 @@
 #include "tests/render/fixture.h"
 #include "tests/scratch.h"
 
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <sys/stat.h>
@@ -103,7 +103,7 @@ static void test_good_program(void **state)
     glDeleteProgram(program);
 }
 
-/* A file may be included by a name that stands before the shader; a name that nobody has said pastes none. */
+/* A file may be included by a name declared before the shader; an undeclared name pastes no text. */
 static void test_include_by_a_name(void **state)
 {
     (void)state;
@@ -162,7 +162,7 @@ static void test_errors_without_end_are_not_waited_for(void **state)
     epoxy_glGetError = before;
     assert_in_range(asked, 2, 1000);
     assert_true(found > 0 && short_of_memory == 0);
-    gl_debug_install(); /* they were counted */
+    gl_debug_install(); /* counted */
 }
 
 int main(void)

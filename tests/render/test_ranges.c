@@ -1,7 +1,7 @@
 /* The range of a scalar, against sorting in plain C. */
 #include "tests/render/fixture.h"
 
-#include "render/particles/derived.h"
+#include "render/particles/particles.h"
 
 enum { ALL = 100000 };
 
@@ -44,8 +44,8 @@ static void check(Ranges *ranges, const char *what, const float *values, size_t 
                  wanted.least, wanted.low, wanted.high, wanted.greatest);
 }
 
-/* What is not waited for is the same a picture later, of a state that is drawn again too; only the first is
-   waited for, and nothing is asked twice. */
+/* A range read without waiting is the same a picture later, for a redrawn state too; only the first read
+   waits, and no range is requested twice. */
 static void what_is_late_is_the_same(void **state)
 {
     (void)state;
@@ -72,7 +72,7 @@ static void what_is_late_is_the_same(void **state)
         assert_memory_equal(&late, shown, 4 * sizeof(double));
         assert_int_equal(behind, k > 0);
         glFinish();
-        for (int again = 0; again < 2; again++) { /* nothing moves */
+        for (int again = 0; again < 2; again++) { /* no motion */
             behind = false;
             const ScalarRange settled = ranges_find_async(&ranges, SCALAR_PRESSURE, &particles, &behind);
             assert_false(behind);
@@ -126,7 +126,7 @@ static void ranges_are_percentiles(void **state)
 
 enum { WIDE = 320, HIGH = 240 };
 
-/* Draws particles whose speeds are 0 .. 1 but for `spike`, which two of a thousand have. */
+/* Draws particles with speeds 0 .. 1, except `spike` for two of a thousand. */
 static uint8_t *picture_of(const char *range, double spike, double found[2])
 {
     Error error = {0};
@@ -166,7 +166,7 @@ static void a_picture_has_the_range_of_most(void **state)
     assert_true(found[0] == 0 && found[1] == 2);
 }
 
-/* What is in the state already stays: so several pictures have one range. */
+/* Values already in the state stay: so several pictures have a common range. */
 static void a_range_may_be_given(void **state)
 {
     (void)state;

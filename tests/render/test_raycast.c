@@ -1,5 +1,4 @@
-/* Rays through fields that are known: where they meet a ball, how much of it they cross, what hides them and
-   what they hide. */
+/* Rays through known fields: intersections with a ball, optical depth, occlusion by and of solids. */
 #include "tests/render/raycast_fixture.h"
 
 /* In a box of 1 m: 64 cells along a side, whose first corner is the box's. */
@@ -57,8 +56,7 @@ static double sampled_at(const double at[3])
     return sum;
 }
 
-/* Along a ray, m, by many steps: of the field; or of a curve of it as it is sampled, which is 0 where there
-   is no fluid. */
+/* Along a ray, m, by many steps: of the field; or of a sampled curve of the field, 0 outside the fluid. */
 static double integral_of(const double from[3], const double to[3], double end, const ControlPoints *curve)
 {
     const int steps = curve ? 2000 : 4000;
@@ -78,8 +76,8 @@ static double weights(void)
     return gl_renderer_is_software() ? 1 : 3;
 }
 
-/* The surface is where the ball ends, its normal is the ball's. Of a cell's width 1.3 % is lost to cells that
-   are straight where the ball is round. Returns how many pixels were compared. */
+/* The surface is the ball's, with the ball's normal. Straight cells on a round ball lose 1.3 % of a
+   cell's width. Returns the number of compared pixels. */
 static int compare_sphere(RayScene *scene, bool normals)
 {
     int compared = 0;
@@ -140,7 +138,7 @@ static void the_surface_in_a_tilted_box(void **state)
     scene_end(&scene);
 }
 
-/* Rays along the axes of the volume, one of them exactly: nothing there may be divided by. */
+/* Rays along the volume's axes, including an exact axis: no division by zero. */
 static void a_camera_square_to_each_face(void **state)
 {
     (void)state;
@@ -161,7 +159,7 @@ static void a_camera_in_the_volume(void **state)
     RayScene scene = ball_scene((double[]){-0.4, 0.9, 0.42}, ball.centre, 70); /* beside the ball */
     assert_true(compare_sphere(&scene, false) > 1000);
     scene_end(&scene);
-    scene = ball_scene(ball.centre, (double[]){1, 1, 1}, 60); /* in the ball: all that it sees is fluid */
+    scene = ball_scene(ball.centre, (double[]){1, 1, 1}, 60); /* inside the ball: only fluid in view */
     RayPixel *pixels = ray_drawn(&scene, true);
     for (int i = 0; i < scene.width * scene.height; i++)
         assert_true(pixels[i].depth > 0.99F && pixels[i].depth <= 1);
@@ -199,7 +197,7 @@ static double nan_at(const double at[3], const void *context)
     return NAN;
 }
 
-/* Not a number in one corner, which the ball is far from. */
+/* NaN in a corner far from the ball. */
 static double ball_and_nan_at(const double at[3], const void *context)
 {
     return at[0] < -0.45 && at[1] < 0.05 && at[2] < -0.45 ? NAN : ball_at(at, context);
@@ -216,7 +214,7 @@ static void nothing_and_what_is_no_number(void **state)
         volume_def(&scene.def)->raycast.skip = false;
         expect_nothing(&scene);
         ray_volume(&scene, &whole, nan_at, NULL);
-        free(ray_drawn(&scene, true)); /* it ends */
+        free(ray_drawn(&scene, true)); /* the end */
         scene_end(&scene);
     }
     RayScene scene = ray_scene((double[]){1.3, 1.1, 1.4}, ball.centre, 30);
@@ -231,7 +229,7 @@ static double one_at(const double at[3], const void *context)
     return 1;
 }
 
-/* Fluid up to the volume's sides: what is cut is closed, to the cell at whose middle the field ends. */
+/* Fluid up to the volume's sides: cuts are closed, to the cell with the field's end at the middle. */
 static void a_volume_full_of_fluid_has_no_holes(void **state)
 {
     (void)state;
@@ -270,7 +268,7 @@ static RaycastDef translucent(double opacity)
     return def;
 }
 
-/* What a ray crosses by its opacity, against the field's integral; through the middle that is the chord. */
+/* Optical depth from opacity, against the field's integral; the chord through the middle. */
 static void compare_lengths(RayScene *scene, double opacity)
 {
     const double per_m = -log(1 - opacity) / scene->state.spacing;
@@ -325,7 +323,7 @@ static void the_skin_at_any_step(void **state)
     scene_end(&scene);
 }
 
-/* The greatest part by which what rays cross of a curve is off. */
+/* The greatest relative error of optical depth through a curve. */
 static double worst_of_curve(RayScene *scene, const ControlPoints *curve, double step)
 {
     double worst = 0;
@@ -345,8 +343,8 @@ static double worst_of_curve(RayScene *scene, const ControlPoints *curve, double
     return worst;
 }
 
-/* Whatever the curve does between two samples; the last begins at once. What is left is the field, which is
-   no straight line between samples. */
+/* For any curve between two samples; the last curve begins at once. The remaining error is the field's
+   deviation from a straight line between samples. */
 static void the_curve_at_any_step(void **state)
 {
     (void)state;
@@ -400,7 +398,7 @@ static void opacity_by_another_scalar(void **state)
     scene.volume.opacity[0] = scene.volume.field;
     scene.volume.opacity[1] = ray_texture(&whole, field);
     scene.def.opacity = (ScalarCurve){.by = 1 + SCALAR_PRESSURE, .range = {0, 10}, .curve = points};
-    scene.state.scalar[SCALAR_PRESSURE].buffer = 1; /* is there; nobody reads it */
+    scene.state.scalar[SCALAR_PRESSURE].buffer = 1; /* present, unread */
     RayPixel *by = ray_drawn(&scene, true);
     scene.state.scalar[SCALAR_PRESSURE].buffer = 0;
     RayPixel *lacking = ray_drawn(&scene, true);
@@ -421,7 +419,7 @@ static void opacity_by_another_scalar(void **state)
     scene_end(&scene);
 }
 
-/* Neighbours sample at different places, so that what a step misses is noise and no band. */
+/* Neighbouring pixels sample at different places, so that missed detail is noise without bands. */
 static void jitter_moves_samples(void **state)
 {
     (void)state;
@@ -442,7 +440,7 @@ static void jitter_moves_samples(void **state)
         fail_msg("%d neighbours differ without jitter, %d with", unlike[0], unlike[1]);
 }
 
-/* A ray that ends early lacks no more than what was left, and takes fewer steps. */
+/* A ray with early termination lacks at most the remaining transmittance, and takes fewer steps. */
 static void early_termination(void **state)
 {
     (void)state;

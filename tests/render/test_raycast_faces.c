@@ -1,5 +1,5 @@
-/* Where rays enter and leave: bricks against brute force, the faces of the volume against its planes, and
-   what the view shows of both. */
+/* Entry and exit of rays: bricks against brute force, the volume's faces against planes, and the view's
+   result for both. */
 #include "tests/render/raycast_fixture.h"
 
 #include "render/views/volume/volume_private.h"
@@ -28,7 +28,7 @@ static float *field_of(const Volume *volume, size_t *count)
     return values;
 }
 
-/* Of all voxels whose values are mixed in it: those at its far faces too. */
+/* Of all voxels contributing to the value: far faces included. */
 static float greatest_in(const float *values, const VolumeGrid *grid, const int brick[3], int side)
 {
     float greatest = 0;
@@ -64,7 +64,7 @@ static void bricks_by_brute_force(void **state)
     glDeleteTextures(1, &scene.volume.field);
 }
 
-/* Bricks share the voxels between them: 9 voxels are one brick of 8, 10 are two. */
+/* Bricks share voxels at borders: 9 voxels are a brick of 8, 10 are two. */
 static void how_many_bricks(void **state)
 {
     (void)state;
@@ -75,7 +75,7 @@ static void how_many_bricks(void **state)
     assert_true(count[0] == 32 && count[1] == 32 && count[2] == 1);
 }
 
-/* Skipping draws the same picture: what it leaves out holds nothing. */
+/* Skipping draws the same picture: skipped space is empty. */
 static void skipping_changes_nothing(void **state)
 {
     (void)state;
@@ -99,7 +99,7 @@ static void skipping_changes_nothing(void **state)
                 apart += fabsf(with[i].color[3] - without[i].color[3]) > 0.02F ||
                          fabsf(with[i].depth - without[i].depth) > depth_apart * without[i].depth;
             }
-            if (covered < 150 || 100 * apart > covered) /* rays that graze may differ by where they sample */
+            if (covered < 150 || 100 * apart > covered) /* grazing rays may differ in sampling position */
                 fail_msg("eye %d: %d of %d pixels differ", eye, apart, covered);
             free(with);
             free(without);

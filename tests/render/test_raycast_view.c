@@ -69,8 +69,8 @@ static uint8_t srgb(float linear)
                            (linear <= 0.0031308F ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055));
 }
 
-/* Where the surface is all of one value, it has exactly its colour: by each way to the volume, and without.
- */
+/* A surface of constant value has exactly the value's colour: by each way to the volume, and without a
+   volume. */
 static void colors_of_scalars_and_fluids(void **state)
 {
     (void)state;
@@ -129,8 +129,8 @@ static void without_a_volume(void **state)
     free(picture.particles);
 }
 
-/* Water that bends nothing and takes no light is not there, and all edges of the box are seen through it;
-   real water is. */
+/* Water without refraction and absorption is invisible, with all edges of the box in view; real water is
+   visible. */
 static void water_of_index_one_is_not_seen(void **state)
 {
     (void)state;
@@ -156,7 +156,7 @@ static void water_of_index_one_is_not_seen(void **state)
     free(picture.particles);
 }
 
-/* What `bench` says of a picture: the pixels that differ from one without the fluid. */
+/* The coverage reported by `bench`: pixels different from a picture without the fluid. */
 static void coverage_is_counted(void **state)
 {
     (void)state;
@@ -219,7 +219,7 @@ static void the_shadow_of_a_ball_by_marching(void **state)
             on[k] = from[k] + scene.frame.camera.near_plane / bare[i].depth * to[k];
         if (on[1] < 0.19) /* a side of the slab */
             continue;
-        const float *light = scene.frame.to_light;
+        const float *light = scene.frame.light.to;
         const double up = (0.6 - on[1]) / light[1], x = on[0] + up * light[0], z = on[2] + up * light[2];
         away = sqrt(x * x + z * z);
         const double share = shaded[i].color[1] / bare[i].color[1];

@@ -1,4 +1,4 @@
-/* A renderer whose size and def change while it lives draws what a new one would. */
+/* A renderer with changed size and def draws the same as a new renderer. */
 #include "tests/render/fixture.h"
 
 #include "render/views/splat/splat.h"
@@ -112,7 +112,7 @@ static int made_for(Renderer *renderer, const ViewDef *def)
     return created;
 }
 
-/* A view is made anew for its own settings alone, and not for those that it reads for each picture. */
+/* A view is remade only for settings of the view, not for settings read per picture. */
 static void views_are_kept(void **state)
 {
     (void)state;
@@ -125,10 +125,10 @@ static void views_are_kept(void **state)
     text_set(def.kind, "counted");
     Renderer *renderer = renderer_create(&def, NULL, 16, 16, &error);
     assert_int_equal(created, 1);
-    splat_def(&def)->shading = SPLAT_WATER; /* another view's */
+    splat_def(&def)->shading = SPLAT_WATER; /* a different view's */
     def.radius = 0.8;
     assert_int_equal(made_for(renderer, &def), 0);
-    own->raycast.step = 2; /* its own */
+    own->raycast.step = 2; /* the renderer's own */
     assert_int_equal(made_for(renderer, &def), 0);
     own->raycast.look = RAYCAST_WATER;
     assert_int_equal(made_for(renderer, &def), 1);

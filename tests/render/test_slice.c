@@ -1,15 +1,14 @@
-/* View `slice`: its kernels, its plane, each sample against a sum over all particles in double precision, and
-   what it does with numbers that are none. */
+/* View `slice`: kernels, plane, each sample against a sum over all particles in double precision, and
+   handling of non-finite numbers. */
 #include "tests/render/fixture.h"
 #include "tests/scratch.h"
 
 #include "render/frame/frame.h"
 #include "render/frame/view.h"
 #include "render/particles/particles.h"
-#include "render/particles/plane.h"
 #include "render/views/slice/slice.h"
 #include "render/views/slice/slice_private.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 #include "sim/kernel/kernel.h"
 #include "sim/step/method.h"
 
@@ -211,7 +210,7 @@ static void each_sample_is_the_sum_over_all_particles(void **state)
         }
 }
 
-/* Particles of a third of a sample, of which most reach none, and some that are wider than the slice. */
+/* Particles of a third of a sample, mostly between samples, and some wider than the slice. */
 static void small_and_large_particles(void **state)
 {
     (void)state;
@@ -303,7 +302,7 @@ static void a_lattice_keeps_constants_and_slopes(void **state)
     free_scene(&scene);
 }
 
-/* A drop whose speed is no number, and a particle that is nowhere. */
+/* A drop with a NaN speed, and a particle without a position. */
 static void what_is_no_number_stays_where_it_is(void **state)
 {
     (void)state;
@@ -359,7 +358,7 @@ static ViewDef flat_view(void)
     return def;
 }
 
-/* The colours of a flat slice are those of the sums that tests above have checked. */
+/* The colours of a flat slice are the colours of the verified sums. */
 static void a_pixel_has_the_colour_of_its_value(void **state)
 {
     (void)state;
@@ -393,7 +392,8 @@ static void a_pixel_has_the_colour_of_its_value(void **state)
     free_scene(&scene);
 }
 
-/* By a scalar, that of the colours or another, what is low is not there and what is high is as without. */
+/* By a scalar, the coloured scalar or a second scalar, low values are invisible and high values
+   unchanged. */
 static void opacity_goes_by_a_scalar(void **state)
 {
     (void)state;
@@ -429,7 +429,7 @@ static void opacity_goes_by_a_scalar(void **state)
     free_scene(&scene);
 }
 
-/* Where play has brought the plane the picture is that of a plane which is there. */
+/* After a move of the plane in playback the picture equals a plane at the target. */
 static void it_plays_in_pictures(void **state)
 {
     (void)state;
@@ -485,8 +485,8 @@ static void half_of_the_particles_is_left(void **state)
     free_scene(&scene);
 }
 
-/* Through a plane that cannot be seen all particles are what their own view shows; and a plane that has all
-   of them behind it is before them. */
+/* Through an invisible plane all particles look as in the particle view; with all particles behind the
+   plane, the plane is in front. */
 static void particles_are_those_of_their_own_view(void **state)
 {
     (void)state;
@@ -518,7 +518,7 @@ static void particles_are_those_of_their_own_view(void **state)
 
 /* ---- probes ---- */
 
-/* What is known in the end: on a GPU it comes later. */
+/* The final answer: late on a GPU. */
 static ViewProbeAnswers ask(Renderer *renderer, const ViewProbeRequest *asks)
 {
     ViewProbeAnswers told;
@@ -532,7 +532,7 @@ static ViewProbeAnswers ask(Renderer *renderer, const ViewProbeRequest *asks)
     return told;
 }
 
-/* What probes of a picture say is what all particles sum up to there. */
+/* A probe of a picture equals the sum over all particles at the place. */
 static void check_probes(const ViewDef *def, SliceScene *scene)
 {
     Error error = {0};
@@ -608,7 +608,7 @@ static void probes_say_what_all_particles_sum_up_to(void **state)
     free_scene(&scene);
 }
 
-/* What comes later is told with the name that it had when it was asked for, and as no present value. */
+/* Late answers keep the name at the request, and are never present values. */
 static void late_sums_keep_their_name(const PlaneJob *job, const PlaneSum *sum)
 {
     SliceProbe slice = {.drawn = true, .run = 1, .job = *job, .flat = true, .name = "speed", .unit = "m/s"};
@@ -635,7 +635,7 @@ static void late_sums_keep_their_name(const PlaneJob *job, const PlaneSum *sum)
     plane_probe_destroy(&slice.probe);
 }
 
-/* On a GPU what is asked for is there when the GPU has done it; nothing waits. */
+/* On a GPU an answer arrives when the GPU is done, without waiting. */
 static void samples_of_the_gpu_come_later(void **state)
 {
     (void)state;
@@ -666,7 +666,7 @@ static void samples_of_the_gpu_come_later(void **state)
     free_scene(&scene);
 }
 
-/* The legend says that there is nothing to be seen; so it does of a plane beside the box. */
+/* The legend notes an invisible plane, and a plane outside the box. */
 static void a_plane_without_fluid_is_said(void **state)
 {
     (void)state;
@@ -692,7 +692,8 @@ static void a_plane_without_fluid_is_said(void **state)
                    &scene.job.plane);
         assert_true(plane_sum_run(&sum, &scene.job, &buffers, &error));
         assert_int_equal(plane_sum_none(&sum, NULL), cases[i].none);
-        for (int again = 0; again < 2; again++) { /* without waiting: what was known, in the end what is */
+        for (int again = 0; again < 2;
+             again++) { /* without waiting: the previous answer, in the end the present answer */
             bool behind = false;
             const bool none = plane_sum_none(&sum, &behind);
             assert_true(none == cases[i].none);
@@ -718,7 +719,7 @@ static void small_particles_are_not_lost(void **state)
     ViewDef def = flat_view();
     slice_def(&def)->cut = 0;
     scene.particles->count = 1;
-    scene.particles->position[3] = 0; /* nothing */
+    scene.particles->position[3] = 0; /* empty */
     scene.state = box_state(1, spacing);
     picture_of(&scene, &def, none);
     scene.particles->count = 0;

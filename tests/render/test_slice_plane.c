@@ -1,4 +1,4 @@
-/* The plane of the view slice: where it plays to, what drags and keys set. */
+/* The plane of the view slice: playback range, and settings by drags and keys. */
 #include "tests/render/fixture.h"
 
 #include "render/views/slice/slice_private.h"
@@ -43,7 +43,7 @@ static void it_plays_to_and_fro_through_the_box(void **state)
     slice_point(def, BOX, 2.5, point);
     assert_point(point, 1, 0.2, 0.1);
     slice_point(def, BOX, 5, point);
-    assert_point(point, 0.5, 0.2, 0.1); /* on its way back */
+    assert_point(point, 0.5, 0.2, 0.1); /* on the way back */
     slice_point(def, BOX, 12.5, point);
     assert_point(point, -1, 0.2, 0.1);
     slice_point(def, BOX, 20 * 1001, point); /* whole rounds of 4 m */
@@ -103,7 +103,7 @@ static void drags_become_settings(void **state)
     double at[3] = {handles[1].at[0] + 0.2, 0.3, handles[1].at[2]};
     assert_int_equal(slice_drag(&view, &particles, 1, &handles[1], at, settings), 1);
     assert_setting(&settings[0], "view.slice.point", 0.3, 0.3, 0);
-    slice_def(&view)->play = 0.1; /* it stands still when it is taken */
+    slice_def(&view)->play = 0.1; /* stationary at the grab */
     slice_handles(&view, &particles, handles);
     assert_point(handles[0].at, 0.1, 0.4, 0);
     for (int k = 0; k < 3; k++)

@@ -1,6 +1,6 @@
 /* A writer and a drawer, each at its own pace: no slot is ever touched by both, the writer never waits, and
    the drawer sees states whole and in order. ThreadSanitizer watches the bytes. */
-#include "render/particles/upload.h"
+#include "render/particles/particles.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -63,7 +63,7 @@ static void states_are_whole_and_in_order(void **state)
     slots_destroy(&shared.slots);
 }
 
-/* The newest state that nobody took is the one that is overwritten. */
+/* The newest untaken state is overwritten. */
 static void unread_states_are_overwritten(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* Solids: their depth against rays in double, and who hides whom. */
+/* Solids: depth against rays in double, and occlusion. */
+#include "tests/lists.h"
 #include "tests/render/solids_fixture.h"
 
 #include "render/frame/passes.h"
@@ -42,7 +43,7 @@ static int compare(SolidsScene *scene, double tolerance)
 
 static void test_every_kind_is_where_it_is(void **state)
 {
-    (void)state; /* chords leave their arcs by 3e-4 m, which slanting rays lengthen */
+    (void)state; /* chords leave arcs by 3e-4 m, lengthened by slanting rays */
     for (int kind = 0; kind < SOLID_KIND_COUNT; kind++) {
         SolidsScene scene = scene_create();
         SolidDef *solid = scene_add(&scene, (SolidKind)kind, 0.2, 0.6, -0.1);
@@ -54,8 +55,8 @@ static void test_every_kind_is_where_it_is(void **state)
     }
 }
 
-/* Against the formula: a ball's depth at every pixel that is not near its rim. Chords leave the arc by 3e-4
-   m along its circles and as much across. */
+/* Against the formula: a ball's depth at every pixel away from the rim. Chords leave the arc by 3e-4 m
+   along and across the circles. */
 static void test_sphere_by_formula(void **state)
 {
     (void)state;
@@ -92,9 +93,9 @@ static void test_moves_with_time(void **state)
     for (int i = 0; i < 3; i++) {
         SolidsScene scene = scene_create();
         SolidDef *solid = scene_add(&scene, SOLID_BOX, -0.3, 0.5, 0);
-        solid->motion_count = 2;
-        solid->motions[0] = (Motion){MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.5, .frequency = 0.2};
-        solid->motions[1] = (Motion){MOTION_SPIN, .axis = {0.2, 0.3, 1}, .rate = 1};
+        add_solid_motion(solid,
+                         (Motion){MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.5, .frequency = 0.2});
+        add_solid_motion(solid, (Motion){MOTION_SPIN, .axis = {0.2, 0.3, 1}, .rate = 1});
         scene.state.time = 0.6 * i;
         assert_true(compare(&scene, 2e-5) > 300);
     }
@@ -158,7 +159,7 @@ static void test_the_nearer_solid_is_seen(void **state)
     }
 }
 
-/* Both ways to draw particles leave a solid as it is where no particle is before it. */
+/* Both ways to draw particles leave a solid unchanged where no particle is in front. */
 static void test_hidden_particles_leave_no_trace(void **state)
 {
     (void)state;
@@ -178,7 +179,7 @@ static void test_hidden_particles_leave_no_trace(void **state)
     }
 }
 
-/* Its inside and its outside are seen, and what lies in it. */
+/* Inside and outside are visible, and the contents. */
 static void test_bowl_from_inside(void **state)
 {
     (void)state;
@@ -193,14 +194,14 @@ static void test_bowl_from_inside(void **state)
     assert_true(fabs(camera.near_plane / depth[middle] - 2.75) < 0.01); /* the bottom of its inside */
     particles_add(scene.particles, 0, 0.3, 0, 1, 0);
     draw_depth(&scene, depth);
-    assert_true(fabs(camera.near_plane / depth[middle] - 2.65) < 0.01); /* the particle in it */
+    assert_true(fabs(camera.near_plane / depth[middle] - 2.65) < 0.01); /* the particle inside */
     scene.def.camera = (CameraDef){{0, -2, 0.01}, {0, 0.5, 0}, 20};
     draw_depth(&scene, depth);
     assert_true(fabs(camera.near_plane / depth[middle] - 2.2) < 0.01); /* the bottom of its outside */
     free(scene.particles);
 }
 
-/* In a flat box all are as deep as it is: the face towards the eye is its face. */
+/* In a flat box all solids are as deep as the box: the face towards the eye is the box's face. */
 static void test_flat_box(void **state)
 {
     (void)state;
@@ -234,8 +235,7 @@ static void test_flat_box(void **state)
     }
 }
 
-/* Triangles face where their normals point, and all of them together face nowhere: nothing is missing when
-   hidden faces are left out. */
+/* Triangles face along the normals, and the sum of areas is zero: culling of back faces leaves no hole. */
 static void assert_closed(const SolidMesh *mesh)
 {
     double area[3] = {0}, volume = 0;

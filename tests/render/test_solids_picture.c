@@ -1,14 +1,14 @@
-/* Solids in a picture: whom they shade and who shades them, and what changes while a renderer lives. */
+/* Solids in a picture: shadows on and of solids, and changes during a renderer's life. */
 #include "tests/render/solids_fixture.h"
 
-#include "render/frame/camera.h"
+#include "render/frame/frame.h"
 
 typedef struct Darker {
     double by;  /* mean over these pixels, levels of green */
     int pixels; /* that are darker by more than 4 levels */
 } Darker;
 
-/* Of the rows from `first` down, where there is something, or where there is nothing but floor and sky. */
+/* Of the rows from `first` down: solid pixels, or floor and sky only. */
 static Darker compare(const uint8_t *without, const uint8_t *with, const float *depth, bool something,
                       int first)
 {
@@ -52,7 +52,7 @@ static void test_shadow_on_the_floor(void **state)
     free(scene.particles);
 }
 
-/* A ball before the box, beyond what the box itself shades: its shadow is not cut off. */
+/* A ball in front of the box, beyond the box's shadow: the ball's shadow is complete. */
 static void test_shadow_before_the_box(void **state)
 {
     (void)state;
@@ -73,7 +73,7 @@ static void test_shadow_before_the_box(void **state)
     free(scene.particles);
 }
 
-/* Seen from the side: something lies in the lower half of the picture, and what shades it in the upper. */
+/* Seen from the side: a receiver in the lower half of the picture, a caster in the upper half. */
 static SolidsScene side_view(void)
 {
     SolidsScene scene = scene_create();

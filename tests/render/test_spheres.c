@@ -1,7 +1,7 @@
 /* Every pixel of the view `spheres` against a ray that is tried with every sphere, in double. */
 #include "tests/render/fixture.h"
 
-#include "render/frame/camera.h"
+#include "render/frame/frame.h"
 
 enum { WIDTH = 160, HEIGHT = 120 };
 
@@ -89,8 +89,8 @@ static double slope_at(const Scene *scene, const Camera *camera, double x, doubl
     return most;
 }
 
-/* Hit or miss at every pixel but those within 1e-3 radii of a rim; depth as a distance, within 1e-4 of it.
-   Returns how many pixels were hit. */
+/* Hit or miss at every pixel except within 1e-3 radii of a rim; depth as a distance, within 1e-4. Returns
+   the number of hit pixels. */
 static int compare(Scene *scene)
 {
     static float depth[WIDTH * HEIGHT];
@@ -138,7 +138,7 @@ static void test_centre_outside_the_view(void **state)
     (void)state;
     Scene scene = scene_create((double[]){0, 0, 2}, (double[]){0, 0, 0}, 40, 0.5);
     particles_add(scene.particles, 1.3, 0, 0, 1, 0);  /* beyond the right side */
-    particles_add(scene.particles, 0, -1.0, 0, 1, 0); /* beyond the lower one */
+    particles_add(scene.particles, 0, -1.0, 0, 1, 0); /* beyond the lower layer */
     assert_int_equal(compare(&scene) > 100, 1);
 }
 

@@ -1,19 +1,17 @@
-/* The stage clock tells where the time goes: by a clock that the test turns, and a GPU whose work is done no
-   sooner than somebody waits for it. */
+/* The stage clock's times: with a test clock, and a GPU that finishes only on a wait. */
 #define _GNU_SOURCE /* syscall */
 #include "tests/render/fixture.h"
 #include "tests/scratch.h"
 
-#include "sim/gpu/program.h"
-#include "sim/gpu/timer.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <sys/syscall.h>
 #include <time.h>
 #include <unistd.h>
 
-static _Thread_local double turned_ms; /* by hand, in this thread; 0: the clock runs by itself */
-static double asked_ms;                /* what the work takes that was asked for */
+static _Thread_local double turned_ms; /* by hand, in this thread; 0: the real clock */
+static double asked_ms;                /* time of the requested work */
 static int done;                       /* draws that were waited for */
 static PFNGLFINISHPROC finish;
 
@@ -27,7 +25,7 @@ int clock_gettime(clockid_t clock, struct timespec *now)
     return 0;
 }
 
-/* A draw takes a millisecond, and what else was asked for its own time. */
+/* A draw takes a millisecond, further requests a separate time. */
 static void APIENTRY finish_asked(void)
 {
     finish();
@@ -105,7 +103,7 @@ static void load_run(const Load *load, int rounds)
     asked_ms += rounds;
 }
 
-/* Work that hides what a stage itself costs: hardware is a thousand times faster. */
+/* Work that hides a stage's own cost: hardware is a thousand times faster. */
 static void run_frame(const Load *load, GlTimer *timer)
 {
     const int least = gl_renderer_is_software() ? 5 : 2000;
@@ -115,7 +113,7 @@ static void run_frame(const Load *load, GlTimer *timer)
     load_run(load, 100 * least);
 }
 
-/* Each stage has the time of its own work, and that of none before it. */
+/* Each stage has the time of the stage's work, without earlier work. */
 static void test_finish(void **state)
 {
     (void)state;
@@ -186,7 +184,7 @@ static bool has_stage(const char *view, Stage stage)
     return stage_part(stage) == PART_RENDER && (own || !named);
 }
 
-/* A whole picture: every pass has its stage, and between them nothing is lost. */
+/* A whole picture: every pass has a stage, and no time is lost between stages. */
 static void picture_stages(const char *view)
 {
     Error error = {0};
@@ -194,7 +192,7 @@ static void picture_stages(const char *view)
     ViewDef def = view_def_default();
     WorldDef world = {0};
     text_set(def.kind, view);
-    def.color_by = SCALAR_SPEED;            /* whose range is found */
+    def.color_by = SCALAR_SPEED;            /* with an automatic range */
     splat_def(&def)->shading = SPLAT_WATER; /* has all stages */
     splat_def(&def)->filter = SPLAT_NARROW_RANGE;
     world.solid_count = 1; /* what only some scenes have */

@@ -1,5 +1,4 @@
-/* Overlay `trails`: which points it keeps of which particles, through all that may happen to time and
-   particles. */
+/* Overlay `trails`: stored points per particle, through all changes of time and particles. */
 #include "tests/render/trails_fixture.h"
 
 #include "render/frame/view.h"
@@ -88,7 +87,7 @@ static void particles_are_found_in_any_order(void **state)
     const double worst = worst_of_turn(&store, COUNT);
     if (!(worst < 2e-7))
         fail_msg("%g m off", worst);
-    /* a second in steps of 8 ms, and one point that is older, up to which the trail fades */
+    /* a second in steps of 8 ms, and an older point at the trail's faded end */
     assert_in_range(store.ring.end - store.ring.begin, 126, 127);
     trail_store_destroy(&store);
     movers_destroy(movers);
@@ -153,7 +152,7 @@ static void a_reset_empties_them(void **state)
     take_turn(&store, movers, &def, 20, 0);
     assert_int_equal(store.ring.end - store.ring.begin, 1);
     assert_false(trail_ring_joins(&store.ring, store.ring.end - 1));
-    movers->state.box_size[0] = 1; /* another scene, whose time is later */
+    movers->state.box_size[0] = 1; /* a new scene with later time */
     take_turn(&store, movers, &def, 20, 0.3);
     assert_int_equal(store.ring.end - store.ring.begin, 1);
     trail_store_destroy(&store);
@@ -185,7 +184,7 @@ static void a_jump_is_no_path(void **state)
     movers_destroy(movers);
 }
 
-/* Ids that come by an emitter and go by a drain: each keeps its trail, nobody gets another's. */
+/* Ids from an emitter to a drain: each keeps a trail, never the trail of a different particle. */
 static void particles_come_and_go(void **state)
 {
     (void)state;
@@ -215,7 +214,7 @@ static void particles_come_and_go(void **state)
     movers_destroy(movers);
 }
 
-/* Where two want one trail the older has it until it is gone. */
+/* For two candidates the older keeps the trail until removal. */
 static void the_older_keeps_its_trail(void **state)
 {
     (void)state;
@@ -307,7 +306,7 @@ static void ids_are_read(void **state)
     }
 }
 
-/* By clicks, whatever the number of digits; a seventeenth is refused, and one of them goes again. */
+/* By clicks, with any number of digits; a seventeenth is refused, and a second click removes. */
 static void a_click_adds_up_to_sixteen(void **state)
 {
     (void)state;
@@ -332,7 +331,7 @@ static void a_click_adds_up_to_sixteen(void **state)
     assert_null(strstr(settings[0].text, "2147483647"));
 }
 
-/* Ten that rise through a plane one after another; going back before that they have not crossed it. */
+/* Ten particles rise through a plane in turn; after going back the plane is uncrossed. */
 static void those_that_cross_a_plane_are_chosen(void **state)
 {
     (void)state;
@@ -505,7 +504,7 @@ static void a_refused_view_loses_no_trail(void **state)
     movers_destroy(movers);
 }
 
-/* A ring that is full loses its oldest column, and not what the present state stands in. */
+/* A full ring loses the oldest column, and never the present state's data. */
 static void columns_are_in_their_order(void **state)
 {
     (void)state;

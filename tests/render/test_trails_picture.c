@@ -1,5 +1,5 @@
-/* Overlay `trails` in pictures: a path is where the particle was, to the pixel, and what is kept from picture
-   to picture is what would be drawn anew, to the bit. */
+/* Overlay `trails` in pictures: a path equals the particle's path to the pixel, and cached pictures equal
+   new drawings to the bit. */
 #include "tests/render/trails_fixture.h"
 
 #include "render/views/pbsr/pbsr.h"
@@ -35,7 +35,7 @@ static void follow(Show *show)
     assert_true(renderer_set_def(show->renderer, &show->def, &show->world, &error));
 }
 
-/* The picture of those added, at that time. */
+/* The picture of the added states, at the given time. */
 static void draw(Show *show, double time, uint8_t rgb[BYTES])
 {
     const ParticleBuffers particles = movers_upload(show->movers, time);
@@ -57,7 +57,7 @@ static void draw_bare(Show *show, uint8_t rgb[BYTES])
     renderer_destroy(renderer);
 }
 
-/* One particle on a circle about the box's middle, in a plane that leans. */
+/* A particle on a circle about the box's middle, in a leaning plane. */
 static void on_circle(double angle, double at[3])
 {
     at[0] = 0.4 * cos(angle);
@@ -108,7 +108,7 @@ static bool differ(const uint8_t *a, const uint8_t *b, int x, int y)
     return memcmp(&a[3 * (y * WIDE + x)], &b[3 * (y * WIDE + x)], 3) != 0;
 }
 
-/* A rigid rotation: the trail is the arc of the circle of its length, and nothing else. */
+/* A rigid rotation: the trail is an arc of the circle, exactly. */
 static void the_path_is_the_circle(void **state)
 {
     (void)state;
@@ -185,7 +185,7 @@ static void what_is_kept_is_what_would_be_drawn(void **state)
     keep_and_draw_anew(0.09); /* most states are replaced by the next one */
 }
 
-/* A picture after a step back is that of the time, and so are those that follow. */
+/* A picture after a step back is of the time, and all following pictures too. */
 static void a_step_back_leaves_nothing(void **state)
 {
     (void)state;
@@ -209,7 +209,7 @@ static void a_step_back_leaves_nothing(void **state)
     close_show(&show);
 }
 
-/* Particles in the order in which a solver happens to have them: the same picture. */
+/* Particles in the order of a solver: the same picture. */
 static void the_order_of_particles_is_of_no_account(void **state)
 {
     (void)state;
@@ -245,7 +245,7 @@ static int pixels_apart(const uint8_t *a, const uint8_t *b)
     return count;
 }
 
-/* In a window that looks from elsewhere trails have fewer pieces, and all of them in the next picture. */
+/* In a window with a moving eye trails have fewer pieces, and all pieces in the next picture. */
 static void pieces_are_few_while_the_camera_moves(void **state)
 {
     (void)state;
@@ -282,7 +282,7 @@ static void pieces_are_few_while_the_camera_moves(void **state)
     }
 }
 
-/* Layers that lie before and behind few pieces are seen anew with all of them. */
+/* Layers before and behind few pieces are redrawn with all pieces. */
 static void layers_see_all_pieces(void **state)
 {
     (void)state;
@@ -332,7 +332,7 @@ static int drawn_pixels(Show *show, const uint8_t *rgb)
     return drawn;
 }
 
-/* A particle that leaves through one side and comes in by the other. */
+/* A particle leaving through a side and entering by the opposite side. */
 static void no_line_across_periodic_sides(void **state)
 {
     (void)state;
@@ -352,7 +352,7 @@ static void no_line_across_periodic_sides(void **state)
     }
 }
 
-/* What is drained fades where it was; what is let in begins a trail of its own. */
+/* A drained trail fades in place; an emitted particle starts a new trail. */
 static void who_goes_leaves_a_trail_that_fades(void **state)
 {
     (void)state;
@@ -400,8 +400,8 @@ static void solids_hide_what_is_behind(void **state)
     assert_true(drawn[0] > 50 && drawn[1] == 0 && drawn[2] > drawn[0] - 20);
 }
 
-/* What the CPU draws for a software driver is what the GPU draws, but for pixels whose centres lie on an
-   edge; from another place for each tenth state. */
+/* The CPU's drawing for a software driver equals the GPU's, except pixels with centres on an edge; from a
+   new place for each tenth state. */
 static void cpu_and_gpu_draw_the_same(void **state)
 {
     (void)state;
@@ -443,12 +443,11 @@ static void assert_color(const Show *show, const uint8_t *rgb, const double plac
     project(show, place, pixel);
     const uint8_t *found = &rgb[3 * ((int)pixel[1] * WIDE + (int)pixel[0])];
     for (int c = 0; c < 3; c++)
-        if (abs(found[c] - color[c]) > 48) /* it has faded by 2 % */
+        if (abs(found[c] - color[c]) > 48) /* faded by 2 % */
             fail_msg("%d %d %d at x = %g", found[0], found[1], found[2], place[0]);
 }
 
-/* Lines have their colours by the scalar of the time, magenta where that is no number; after another scalar
-   they are gray. */
+/* Lines have colours by the scalar of the time, magenta for NaN; after a change of scalar gray. */
 static void colours_are_those_of_the_time(void **state)
 {
     (void)state;
@@ -519,7 +518,7 @@ static void list(Show *show, const char *ids)
     follow(show);
 }
 
-/* As if they alone had been listed from the start; the slot that is free is the next one's. */
+/* As if listed alone from the start; the free slot is the next particle's. */
 static void one_goes_and_the_others_stay(void **state)
 {
     (void)state;

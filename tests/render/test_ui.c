@@ -1,10 +1,9 @@
-/* The widgets over a picture: where they draw, what they do with a mouse and keys, and when they run at all.
- */
+/* The widgets over a picture: drawing, mouse and keys, and conditions for running. */
 #include "tests/render/ui_fixture.h"
 
-#include "render/frame/text.h"
+#include "render/ui/text.h"
 
-/* One window at a place with one widget of each kind. */
+/* A window at a place with a widget of each kind. */
 typedef struct Form {
     double value, pair[2];
     bool on;
@@ -103,7 +102,7 @@ static void test_curves_are_edited_by_the_mouse(void **state)
     desk->user = &points;
     desk_frames(desk, 30);
     curve_spot(desk, 0.25, 1.5, from);
-    desk_click(desk, from[0], from[1]); /* one click in the empty makes nothing */
+    desk_click(desk, from[0], from[1]); /* a click in the empty area has no effect */
     desk_frames(desk, 30);
     assert_int_equal(points.count, 2);
     desk_click(desk, from[0], from[1]);
@@ -128,7 +127,7 @@ static void test_curves_are_edited_by_the_mouse(void **state)
         curve_spot(desk, points.x[0], points.y[0], to);
         right_click(desk, to);
     }
-    assert_int_equal(points.count, 1); /* the last one stays */
+    assert_int_equal(points.count, 1); /* the last stays */
     form_close(desk);
 }
 
@@ -211,7 +210,7 @@ static void test_runs_only_when_it_must(void **state)
     desk->built = 0;
     desk_frames(desk, 120); /* two seconds */
     assert_in_range(desk->built, 8, 11);
-    for (int i = 0; i < 60; i++) { /* a drag that does not touch it */
+    for (int i = 0; i < 60; i++) { /* a drag outside */
         desk->input.mouse[0] = 500 + (float)i;
         desk->input.button[0] = true;
         desk_frame(desk);
@@ -219,7 +218,7 @@ static void test_runs_only_when_it_must(void **state)
     assert_in_range(desk->built, 12, 17);
     desk->input.button[0] = false;
     desk_frames(desk, 30);
-    for (int i = 0; i < 30; i++) { /* over it */
+    for (int i = 0; i < 30; i++) { /* over the widget */
         desk->input.mouse[0] = 60 + (float)i;
         desk->input.mouse[1] = 50;
         assert_true(desk_frame(desk));
@@ -284,7 +283,7 @@ static void test_typed_numbers_count_when_they_are_whole(void **state)
     assert_true(form.value == 12);
     type_over(desk, "");
     form.changed = false;
-    desk_key(desk, UI_KEY_ENTER); /* as it was */
+    desk_key(desk, UI_KEY_ENTER); /* unchanged */
     assert_true(form.value == 12 && !form.changed);
     form_close(desk);
 }
@@ -356,7 +355,7 @@ static void test_help_appears_when_the_mouse_rests(void **state)
     form_close(desk);
 }
 
-/* Both keep their own letters and state, in whatever order they are used. */
+/* Each keeps separate letters and state, in any order of use. */
 static void test_beside_a_text(void **state)
 {
     (void)state;

@@ -1,14 +1,15 @@
 /* The ring of slots: what is written is what the GPU reads, round and round, without touching what is still
  * drawn. */
-#include "render/particles/upload.h"
+#include "render/particles/particles.h"
 #include "slosh/world.h"
+#include "tests/lists.h"
 #include "tests/render/fixture.h"
 
 #include <epoxy/gl.h>
 
 enum { COUNT = 1000 };
 
-/* State number `number`: values that tell it apart. */
+/* State number `number`: values that identify the state. */
 static void fill(Particles *particles, int number)
 {
     particles->count = 0;
@@ -130,8 +131,7 @@ static void test_world(void **state)
     def.initial = &initial;
     def.fluid_count = 1;
     def.fluids[0] = (FluidDef){.name = "water", .density = 1000, .viscosity = 0.1};
-    def.motion_count = 1;
-    def.motions[0] = (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.1, .frequency = 1};
+    add_motion(&def, (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.1, .frequency = 1});
     World *world = world_create(&def, &error);
     if (!world)
         fail_msg("%s", error.message);

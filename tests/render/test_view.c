@@ -1,7 +1,6 @@
 /* A view that is no part of the program: tests/render/toy_view.h. */
 #include "tests/render/fixture.h"
 
-#include "app/scene/keys.h"
 #include "app/scene/scene.h"
 #include "tests/render/toy_view.h"
 #include "tests/scene/scene_text.h"

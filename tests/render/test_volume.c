@@ -3,7 +3,7 @@
 
 #include "render/views/volume/volume_private.h"
 
-/* Those that make a texture. */
+/* Methods that make a texture. */
 static const VolumeMethod textured[] = {VOLUME_GEOMETRY, VOLUME_LAYERS, VOLUME_PLANES,
                                         VOLUME_SCATTER,  VOLUME_GATHER, VOLUME_SLABS};
 enum { TEXTURED = sizeof textured / sizeof *textured };
@@ -37,7 +37,8 @@ static void each_voxel_is_the_sum_over_all_particles(void **state)
     volume_scene_free(&scene);
 }
 
-/* Cells much larger and much smaller than the kernel, so that particles cut one slice and dozens. */
+/* Cells much larger and much smaller than the kernel, so that particles cut between a single slice and
+   dozens. */
 static void coarse_and_fine(void **state)
 {
     (void)state;
@@ -118,7 +119,7 @@ static void the_integral_is_the_volume_of_the_fluid(void **state)
     volume_scene_free(&scene);
 }
 
-/* Where the fluid is, both have the same voxels; the fluid's volume is the smaller one. */
+/* Inside the fluid both have the same voxels; the fluid's volume is smaller. */
 static void bounds_of_the_fluid_are_on_the_same_lattice(void **state)
 {
     (void)state;

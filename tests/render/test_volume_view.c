@@ -1,4 +1,4 @@
-/* View `volume`, one slice of it: the colours of the field, from wherever one looks. */
+/* View `volume`, with a slice: the colours of the field, from any direction. */
 #include "tests/render/volume_fixture.h"
 
 #include "render/frame/frame.h"
@@ -34,7 +34,7 @@ static void picture_of(const ViewDef *def, VolumeScene *scene, uint8_t *rgb)
     upload_destroy(upload);
 }
 
-/* Whether the colour is the map's for a value within so much of that one. */
+/* True if the colour is the map's for a value within the tolerance. */
 static bool has_color_of(const uint8_t *rgb, double value, double within)
 {
     uint8_t map[3 * COLORMAP_SIZE];
@@ -96,7 +96,7 @@ static void a_slice_shows_the_field(void **state)
     }
 }
 
-/* In the slice, in the volume, behind it, along it; without particles, and with ones that are nowhere. */
+/* In the slice, in the volume, behind, along; without particles, and with non-finite positions. */
 static void from_wherever_one_looks(void **state)
 {
     (void)state;
@@ -154,7 +154,7 @@ static void methods_are_swapped_while_it_runs(void **state)
     volume_scene_free(&scene);
 }
 
-/* The legend is of what the colormap shows: of a slice the field, of steps their number, else the scalar. */
+/* The legend describes the colormap: the field of a slice, the number of steps, or the scalar. */
 static void a_legend_is_of_what_is_shown(void **state)
 {
     (void)state;
@@ -165,12 +165,13 @@ static void a_legend_is_of_what_is_shown(void **state)
     } cases[] = {{VOLUME_SHADED, "speed", 3}, {VOLUME_SLICE, "field", 1.25}, {VOLUME_STEPS, "steps", 64}};
     for (int i = 0; i < 3; i++) {
         ViewDef def = bare_view();
-        Frame frame = {.shown = "speed", .shown_unit = "m/s", .range = {0, 3}, .by_fluid = i > 0};
+        Frame frame = {.colors = {.name = "speed", .unit = "m/s", .range = {0, 3}, .by_fluid = i > 0}};
         volume_def(&def)->show = cases[i].show;
         view_volume.show(&def, &frame);
-        assert_string_equal(frame.shown, cases[i].shown);
-        assert_string_equal(frame.shown_unit, i > 0 ? "" : "m/s");
-        assert_true(frame.range[0] == 0 && frame.range[1] == cases[i].most && !frame.by_fluid);
+        assert_string_equal(frame.colors.name, cases[i].shown);
+        assert_string_equal(frame.colors.unit, i > 0 ? "" : "m/s");
+        assert_true(frame.colors.range[0] == 0 && frame.colors.range[1] == cases[i].most &&
+                    !frame.colors.by_fluid);
     }
 }
 

@@ -1,11 +1,10 @@
-/* A view in one file: it fills the part of the picture in which particles may be with a shade of its own.
-   It adds itself to the list. */
+/* A view in a single file: fills the picture's particle area with a shade, and registers in the list. */
 #ifndef SLOSH_TESTS_TOY_VIEW_H
 #define SLOSH_TESTS_TOY_VIEW_H
 
 #include "render/frame/view.h"
+#include "sim/base/base.h"
 #include "sim/base/key_rows.h"
-#include "sim/base/memory.h"
 
 #include <epoxy/gl.h>
 #include <stdlib.h>
@@ -24,7 +23,7 @@ static inline ToyDef *toy_def(const ViewDef *def)
 static void *toy_create(const Subject *subject, Error *error)
 {
     (void)subject, (void)error;
-    return malloc(1); /* it has no state */
+    return malloc(1); /* stateless */
 }
 
 static void toy_draw(void *state, const ParticleBuffers *particles, const Frame *frame)

@@ -1,4 +1,4 @@
-/* Particles with ids that move by a rule, state by state, in another order each time. */
+/* Particles with ids, moving by a rule, state by state, in a new order each time. */
 #ifndef SLOSH_TRAILS_FIXTURE_H
 #define SLOSH_TRAILS_FIXTURE_H
 
@@ -48,7 +48,7 @@ static inline void movers_add(Movers *movers, uint32_t id, double x, double y, d
     movers->id[movers->count++] = id;
 }
 
-/* Those added so far as the state of that time. */
+/* The added particles as the state of the time. */
 static inline ParticleBuffers movers_upload(Movers *movers, double time)
 {
     Error error = {0};

@@ -1,6 +1,5 @@
-/* The model of what a step costs on ranks: what made the samples comes back, and what was not sampled
- * follows. */
-#include "tests/near.h"
+/* The cost model of a step on ranks: fitted parameters are recovered, and predictions follow. */
+#include "tests/tolerance.h"
 
 #include "app/lab/scaling.h"
 

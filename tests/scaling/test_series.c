@@ -1,5 +1,5 @@
-/* Which runs on ranks belong together, and what they gain. */
-#include "tests/near.h"
+/* Grouping of runs on ranks, and speed-ups. */
+#include "tests/tolerance.h"
 
 #include "app/lab/scaling.h"
 

@@ -13,7 +13,7 @@
 
 #include "app/scene/scene.h"
 
-/* The least that loads: 500 particles. What a test appends starts in line 7. */
+/* The smallest valid scene: 500 particles. Text appended by a test starts in line 7. */
 #define LEAST                                                                                                \
     "box: {size: [1, 1, 1]}\n"                                                                               \
     "particles:\n"                                                                                           \
@@ -43,7 +43,7 @@ static inline void assert_refused(const char *text, const char *message)
         fail_msg("accepted, but should be refused with '%s':\n%s", message, text);
     if (strncmp(error.message, message, strlen(message)) != 0)
         fail_msg("expected '%s'\n     got '%s'", message, error.message);
-    assert_true(strchr(error.message, ';') || strstr(error.message, " must ")); /* what would be right */
+    assert_true(strchr(error.message, ';') || strstr(error.message, " must ")); /* the valid choices */
 }
 
 static inline void assert_set_refused(const char *setting, const char *message)

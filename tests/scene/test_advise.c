@@ -1,8 +1,8 @@
-/* What scenes are warned about, and what they are not. */
+/* Advice on scenes, and scenes without advice. */
 #include "tests/scene/scene_text.h"
 
 #include "app/scene/scene.h"
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 
 #include <dirent.h>
 
@@ -93,7 +93,7 @@ static const struct Case {
       "fluids=[{density: 31, fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.4, 0.5]}}]}, {density: "
       "1, fill: [{block: {min: [-0.5, 0.4, -0.5], max: [0.5, 0.8, 0.5]}}]}]"},
      "mueller throws single light particles up where densities differ by more than 1 : 30, here 1 : 31"},
-    /* 7848 Pa on 10 c^2 = 4000 Pa; the light one above is pressed by its own weight alone */
+    /* 7848 Pa on 10 c^2 = 4000 Pa; the light fluid on top bears only the own weight */
     {{"solver.method=wcsph", "solver.sound_speed=20", "solver.step={dt: 0.0005, substeps: 1}",
       "fluids=[{density: 10, fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.4, 0.5]}}]}, {density: "
       "1000, fill: [{block: {min: [-0.5, 0.4, -0.5], max: [0.5, 0.8, 0.5]}}]}]"},
@@ -120,7 +120,7 @@ static const struct Case {
     {{"solver.preset=accurate", "fluids[0].viscosity=60"}, NULL}, /* its alpha was not chosen */
     {{"solver.method=wcsph", "fluids[0].viscosity=60", "solver.artificial_viscosity=0.04",
       "fluids[1]={fill: [{block: {min: [-0.5, 0.6, -0.5], max: [0.5, 1, 0.5]}}]}"},
-     NULL}, /* it is for the other one */
+     NULL}, /* for the second fluid */
     /* fills */
     {{"fluids[0].fill=[{block: {min: [0, 0.1, 0], max: [0.1, 0.2, 0.1]}}]"},
      "scene.yaml:4:1: one particle has no neighbours: nothing presses it"},
@@ -149,7 +149,7 @@ static void each_is_told_where_it_holds(void **state)
     }
 }
 
-/* A live key that changes is asked about by its path alone. */
+/* A changed live key gets advice by path alone. */
 static void a_running_scene_is_asked_again(void **state)
 {
     (void)state;
@@ -168,8 +168,7 @@ static int count_without_advice(const char *folder)
     assert_non_null(scenes);
     for (struct dirent *entry; (entry = readdir(scenes));) {
         char path[1024];
-        SceneSettings window = {.purpose =
-                                    SCENE_FOR_WINDOW}; /* overfull is for another backend than its own */
+        SceneSettings window = {.purpose = SCENE_FOR_WINDOW}; /* overfull is for a specific backend */
         snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
         if (!strstr(entry->d_name, ".yaml"))
             continue;

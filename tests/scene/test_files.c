@@ -1,13 +1,13 @@
-/* Scene files on disk: those that are shipped, where they are looked for, and what is no file. */
+/* Scene files on disk: shipped scenes, search paths, and invalid files. */
 #include "tests/scene/scene_text.h"
 #include "tests/scratch.h"
 
-#include "app/scene/scene_files.h"
+#include "app/scene/scene.h"
 #include "sim/flow/flow.h"
-#include "sim/gpu/gl_context.h"
-#include "sim/start/seed.h"
+#include "sim/gpu/gl.h"
+#include "sim/start/start.h"
+#include "sim/step/constants.h"
 #include "sim/step/method.h"
-#include "sim/step/step_control.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -57,12 +57,13 @@ static void check_scene(const char *name)
     if (!load(name, 0))
         fail_msg("%s", error.message);
     size_t count = seed_count(&scene.world, scene.world.spacing);
-    if (count == 0) /* what emitters may fill it up to */
+    if (count == 0) /* limit of the emitters' filling */
         count = (size_t)scene.world.most;
     assert_true(count >= 1000 && count <= 30000);
     assert_true(*scene.title);
-    /* A substep must not let sound and the fastest flow (a third of it) cross much more than half of h. Where
-       no sound bounds it, pressure does where fluid is deep. In mode cfl the step sees to that itself. */
+    /* A substep must not let sound and the fastest flow (a third of sound) cross much more than half of
+       h. Without a bound by sound, pressure bounds the step in deep fluid. In mode cfl the step is
+       automatic. */
     const double h = scene.world.support * scene.world.spacing,
                  substep = scene.world.dt / scene.world.substeps;
     if (method_find(scene.world.method)->incompressible) {
@@ -78,7 +79,7 @@ static void every_shipped_scene_loads(void **state)
     assert_true(each_scene(check_scene) >= 4);
 }
 
-/* What the emitters pour, of a scene that fills nothing: so many layers of the disk, if they ever end. */
+/* Fluid poured by emitters, in a scene without fills: layers of the disk, if emission ends. */
 static void check_poured(const char *name)
 {
     bool endless = false;
@@ -100,7 +101,7 @@ static void check_poured(const char *name)
     assert_true(fabs(count / 5000 - 1) < 0.02);
 }
 
-/* Of those that fill something, or pour for some time. */
+/* Scenes with fills, or with pouring for some time. */
 static void check_particles(const char *name)
 {
     if (load(name, 0) && seed_count(&scene.world, scene.world.spacing) == 0) {
@@ -108,7 +109,7 @@ static void check_particles(const char *name)
         return;
     }
     static const size_t wanted[] = {1000, 8192, 20000, 100000, 400000};
-    /* most of the time goes into the last two: one scene of blocks, one with a solid */
+    /* most time goes into the last two: a scene of blocks, a scene with a solid */
     const bool all = strcmp(name, "box_slosh") == 0 || strcmp(name, "pillar") == 0;
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted - (all ? 0 : 2); i++) {
         if (!load(name, wanted[i]))

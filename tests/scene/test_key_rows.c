@@ -1,8 +1,8 @@
-/* What a row costs: the key of a toy method is one row beside its struct, and everything made from the table
- * has it. */
+/* The cost of a row: the key of a toy method is a single row beside the struct, and all products of the
+   table include the key. */
 #include "tests/scene/scene_text.h"
 
-#include "app/scene/keys.h"
+#include "app/scene/scene.h"
 #include "sim/base/key_rows.h"
 #include "sim/step/method.h"
 
@@ -32,7 +32,7 @@ static void a_key_is_one_row(void **state)
     Error error;
     char help[128];
     assert_true(parse_text(LEAST, NULL, &scene, &error));
-    assert_float_equal(((ToyDef *)method_def(&scene.world, &toy))->bounce, 0.5, 0); /* its default */
+    assert_float_equal(((ToyDef *)method_def(&scene.world, &toy))->bounce, 0.5, 0); /* the default */
     assert_true(parse_set(LEAST, "solver.bounce=0.25", &scene, &error));
     assert_float_equal(((ToyDef *)method_def(&scene.world, &toy))->bounce, 0.25, 0);
     assert_false(parse_set(LEAST, "solver.bounce=2", &scene, &error));
@@ -61,7 +61,7 @@ static void a_key_has_an_owner(void **state)
     assert_true(key_owner_used(owner, &scene, false));
 }
 
-/* A mapping gives its flag to what stands in it; of lists' elements each row says it. */
+/* A mapping passes the flag to the members; elements of lists have a flag per row. */
 static void what_is_idle(void **state)
 {
     (void)state;

@@ -1,11 +1,10 @@
-/* The table of keys: every row's range holds on both sides, and what is made from the table agrees with it.
- */
+/* The table of keys: every row's range holds on both sides, and all products of the table agree. */
 #include "tests/scene/scene_text.h"
 
 #include "app/base/program.h"
-#include "app/scene/keys.h"
+#include "app/scene/scene.h"
 #include "render/views/pbsr/pbsr.h"
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 #include "sim/step/method.h"
 
 #include <math.h>
@@ -174,7 +173,7 @@ static void every_list_has_its_bounds(void **state)
     assert_non_null(strstr(error.message, "fluids has 9 entries; it must have 1 to 8"));
 }
 
-/* By a scene of one method or another. */
+/* By a scene of either method. */
 static bool is_taken(const char *setting, Scene *scene, Error *error)
 {
     for (int i = 0; method_list()[i]; i++) {

@@ -1,13 +1,15 @@
-/* Keys of a scene that change while its simulation runs. */
+/* Keys changed during a simulation. */
 #include "tests/scene/scene_text.h"
 
 #include "render/views/pbsr/pbsr.h"
 #include "render/views/splat/splat.h"
 #include "render/views/volume/volume.h"
 
-#include "app/scene/keys.h"
 #include "app/scene/scene.h"
+#include "sim/base/base.h"
 #include "slosh/state.h"
+
+#include <math.h>
 
 #define TWO_FLUIDS                                                                                           \
     "box: {size: [1, 1, 1]}\n"                                                                               \
@@ -34,7 +36,7 @@ static bool set(const char *setting)
     return concerns_world;
 }
 
-/* Refused with that message, and nothing has changed. */
+/* Refused with the message, without a change. */
 static void refuse(const char *setting, const char *message)
 {
     static Scene before;
@@ -66,7 +68,7 @@ static void each_type_reaches_its_field(void **state)
     assert_true(set("hand.turn_speed=90") && scene.world.limits.turn_speed_deg == 90);
     assert_false(set("solver.step.realtime=false") || scene.realtime);
     assert_false(set("solver.acceleration=true") || set("solver.acceleration=false"));
-    assert_true(scene.world.acceleration); /* once kept they stay */
+    assert_true(scene.world.acceleration); /* once kept, always kept */
     assert_false(set("title='two: words'"));
     assert_string_equal(scene.title, "two: words");
     assert_false(set("view.range=auto"));
@@ -79,7 +81,7 @@ static void each_type_reaches_its_field(void **state)
     assert_false(scene.view.range_auto);
     assert_false(set("view.color_by=pressure"));
     assert_int_equal(scene.view.color_by, SCALAR_PRESSURE);
-    assert_true(scene.view.range_auto); /* the range was the other one's */
+    assert_true(scene.view.range_auto); /* the range was of the previous scalar */
     assert_false(set("view.splat.weights=w1") || set("view.splat.eps=0.25"));
     assert_true(splat_def(&scene.view)->weights == SPLAT_W1 && splat_def(&scene.view)->eps == 0.25);
     assert_false(set("view.splat.shape=ellipsoid") || set("view.splat.drops=false"));
@@ -118,7 +120,7 @@ static void path_of(const Key *key, char path[128])
     *to = 0;
 }
 
-/* What the table says of a key holds: its own value can be set, or it is refused. */
+/* The table's claims hold: each key's own value can be set, or is refused. */
 static void the_table_says_which(void **state)
 {
     (void)state;
@@ -147,7 +149,7 @@ static void the_table_says_which(void **state)
     assert_true(live > 20);
 }
 
-/* Whether the row's member is of the world, and the world's to change: another backend is another world. */
+/* True if the row's member belongs to the world and can change in place: a new backend is a new world. */
 static bool is_of_world(const Key *key)
 {
     const Key *list = key_list(key);
@@ -155,7 +157,7 @@ static bool is_of_world(const Key *key)
     return at >= world && at < world + sizeof(WorldDef) && strcmp(key->path, "solver.backend") != 0;
 }
 
-/* What the table says may change is what world_change takes over, and has its place in the saved state. */
+/* Keys marked as live are taken over by world_change, and are in the saved state. */
 static void live_keys_of_the_world_are_saved(void **state)
 {
     (void)state;
@@ -170,10 +172,10 @@ static void live_keys_of_the_world_are_saved(void **state)
     live_load(numbers, &other.world);
     for (int i = 0; i < count; i++) {
         const Key *list = key_list(&keys[i]);
-        const size_t at = list ? key_list_at(list, 0) : 0;
         char value[256], loaded[256];
         if (!(keys[i].flags & KEY_LIVE) || keys[i].flags & KEY_IDLE)
             continue;
+        const size_t at = list ? key_list_at(list, 0) : 0;
         assert_true(list || !strstr(keys[i].path, "[]")); /* no list within a list */
         if (!is_of_world(&keys[i]))
             continue;
@@ -186,7 +188,7 @@ static void live_keys_of_the_world_are_saved(void **state)
     assert_int_equal(live_count(), LIVE_NUMBERS);
 }
 
-/* The words are those that the same setting gets at the start. */
+/* The words equal the words for the same setting at the start. */
 static void messages_are_those_of_set(void **state)
 {
     static const char *const settings[] = {
@@ -264,13 +266,144 @@ static void an_automatic_camera_has_no_keys(void **state)
     refuse("view.camera.fov=30", "the camera is automatic; ");
 }
 
-/* Which a hand has made smaller than what the fluids began with. */
+/* Smaller, by hand, than at the start of the fluids. */
 static void in_a_smaller_box(void **state)
 {
     (void)state;
     scene.world.box_size[0] = 0.9;
     assert_true(set("gravity=[0, -3, 1.5]"));
     assert_true(scene.world.gravity[1] == -3);
+}
+
+enum { VALUES_MAX = 24 };
+
+/* Values of a key, good and bad: within its bounds, at them, beyond them, not finite. */
+static int numbers_of(const Key *key, double numbers[VALUES_MAX])
+{
+    const bool bounded = key->max > key->min;
+    const double least = bounded ? key->min : -1, most = bounded ? key->max : 1;
+    const double all[] = {least,
+                          most,
+                          0.5 * (least + most),
+                          nextafter(least, -INFINITY),
+                          nextafter(most, INFINITY),
+                          0,
+                          -1,
+                          0.1,
+                          1.0 / 3,
+                          1e9,
+                          NAN,
+                          INFINITY};
+    memcpy(numbers, all, sizeof all);
+    return sizeof all / sizeof *all;
+}
+
+/* The next value of the key, of several; false after the last. `now`: the scene has it. */
+static bool value_of(const Key *key, const Scene *now, int index, SettingValue *value)
+{
+    double numbers[VALUES_MAX];
+    const int count = numbers_of(key, numbers);
+    const double number = numbers[index % count], other = numbers[(index * 5 + 1) % count];
+    const char *name = key->type == KEY_CHOICE ? key_choice(key, index) : NULL;
+    *value = (SettingValue){.key = key, .element = strstr(key->path, "[]") ? 1 : 0};
+    switch (key->type) {
+    case KEY_NUMBER:
+    case KEY_CURVE:
+        value->number[0] = number;
+        return index < count;
+    case KEY_INTEGER:
+        value->whole = isfinite(number) && fabs(number) < 2e9 ? (int)number : -7;
+        return index < count;
+    case KEY_BOOLEAN:
+        value->on = index;
+        return index < 2;
+    case KEY_CHOICE:
+        if (key->flags & KEY_INDEX)
+            value->whole = index;
+        else if (name)
+            snprintf(value->name, sizeof value->name, "%s", name);
+        return name != NULL;
+    case KEY_VEC3:
+        value->number[index % 3] = number;
+        value->number[(index + 1) % 3] = other;
+        return index < 3 * count;
+    case KEY_COLOR:
+        for (int k = 0; k < 3; k++)
+            if (key->flags & KEY_SINGLE)
+                value->single[k] = (float)srgb_to_linear((index + 3 * k) % 11 / 10.0);
+            else
+                value->number[k] = srgb_to_linear((index + 3 * k) % 11 / 10.0);
+        return index < 11;
+    case KEY_RANGE:
+        memcpy(value->range.ends, (const char *)now + key->offset, sizeof value->range.ends);
+        value->range.automatic[0] = index < 2;
+        value->range.automatic[1] = index == 1;
+        for (int k = 0; k < 2 && index >= 2; k++)
+            value->range.ends[k] = k == index % 2 ? number : other;
+        return index < 2 * count;
+    case KEY_POINTS:
+        value->points = (ControlPoints){.count = index % 3 + 1, .x = {0, 0.5, index < 6 ? 1 : 0.25}};
+        for (int k = 0; k < 3; k++)
+            value->points.y[k] = index % 2 ? number : 0.25 * k;
+        return index < 2 * count;
+    default:
+        return false;
+    }
+}
+
+static bool same_bytes(const void *a, const void *b, size_t size)
+{
+    return memcmp(a, b, size) == 0;
+}
+
+/* A value does what its text does: the same scene, bit by bit, or the same words; and it can be set back. */
+static void a_value_is_as_its_text(void **state)
+{
+    (void)state;
+    static Scene by_text, by_value;
+    int count, taken = 0, refused = 0, seen = 0;
+    const Key *keys = scene_keys(&count);
+    pbsr_def(&scene.view)->layer_count = 2;
+    for (int i = 0; i < count; i++) {
+        SettingValue value;
+        for (int k = 0; keys[i].flags & KEY_LIVE && value_of(&keys[i], &scene, k, &value); k++) {
+            char text[SETTING_TEXT_SIZE];
+            Error words = {{0}}, other = {{0}};
+            SettingBefore before;
+            bool world = false, also = false;
+            memcpy(&by_text, &scene, sizeof scene);
+            memcpy(&by_value, &scene, sizeof scene);
+            setting_value_text(&value, text);
+            const bool ok = scene_set_live(&by_text, text, &world, &words);
+            if (scene_set_value(&by_value, &value, &before, &also, &other) != ok ||
+                (!ok && strcmp(words.message, other.message) != 0) || world != also)
+                fail_msg("%s: text %d '%s', value '%s'", text, ok, words.message, other.message);
+            if (!same_bytes(&by_text, &by_value, sizeof scene))
+                fail_msg("%s: not the same scene", text);
+            *(ok ? &taken : &refused) += 1;
+            if (ok)
+                scene_set_back(&by_value, &value, &before);
+            if (!same_bytes(&scene, &by_value, sizeof scene))
+                fail_msg("%s: not as before", text);
+            seen += k == 0;
+        }
+    }
+    assert_true(seen > 120 && taken > 400 && refused > 400);
+}
+
+static void values_of_a_plane_and_of_a_set_camera(void **state)
+{
+    static const char plane[] = "box: {size: [1, 1]}\nparticles: {spacing: 0.1}\n"
+                                "fluids:\n  - fill: [{block: {min: [-0.5, 0], max: [0, 0.5]}}]\n"
+                                "  - fill: [{block: {min: [0, 0], max: [0.5, 0.5]}}]\n";
+    assert_true(parse_text(plane, NULL, &scene, &error));
+    a_value_is_as_its_text(state);
+    assert_int_equal(setup(state), 0);
+    scene.world.box_size[0] = 0.9; /* by hand: the fluids' fills are outside */
+    a_value_is_as_its_text(state);
+    scene.world.acceleration = true;
+    snprintf(scene.view.kind, sizeof scene.view.kind, "spheres");
+    a_value_is_as_its_text(state);
 }
 
 int main(void)
@@ -285,6 +418,8 @@ int main(void)
         cmocka_unit_test_setup(values_must_fit_each_other, setup),
         cmocka_unit_test_setup(an_automatic_camera_has_no_keys, setup),
         cmocka_unit_test_setup(in_a_smaller_box, setup),
+        cmocka_unit_test_setup(a_value_is_as_its_text, setup),
+        cmocka_unit_test_setup(values_of_a_plane_and_of_a_set_camera, setup),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

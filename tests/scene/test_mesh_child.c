@@ -1,4 +1,4 @@
-/* What a reader of meshes may do in its own process: crash, hang, give up, or read. */
+/* A mesh reader in a child process: crash, hang, failure, or success. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

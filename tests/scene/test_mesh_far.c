@@ -1,5 +1,4 @@
-/* Meshes far from the origin of their file, as surveys have them, and what the nodes of a glTF do with
- * theirs. */
+/* Meshes far from the file's origin, as in surveys, and transforms of glTF nodes. */
 #include "tests/mesh_models.h"
 #include "tests/scratch.h"
 
@@ -164,7 +163,7 @@ static void doubles_lose_nothing(void **state)
         write_ply("far.ply", coding[k], "double");
         expect_ball("far.ply");
     }
-    write_ply("far.ply", "ascii", "float"); /* what a text says it is does not round it */
+    write_ply("far.ply", "ascii", "float"); /* a text's stated size does not round the text */
     expect_ball("far.ply");
 }
 
@@ -184,7 +183,7 @@ static void floats_say_what_they_lost(void **state)
         assert_string_equal(error.message, words);
 }
 
-/* A glTF of as many nodes, each with the ball and what it does with it. */
+/* A glTF with a number of nodes, each with the ball and a transform. */
 static void write_gltf(const char *name, const char *nodes, const char *list)
 {
     const size_t places = 12 * ball.vertex_count, corners = 12 * ball.triangle_count;

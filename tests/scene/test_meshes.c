@@ -1,4 +1,4 @@
-/* Meshes that a scene names: files that are right, that can be mended, and that cannot be had. */
+/* Meshes of a scene: valid files, repairable files, and impossible files. */
 #include "tests/mesh_models.h"
 #include "tests/scene/scene_text.h"
 #include "tests/scratch.h"
@@ -58,7 +58,7 @@ static void append(const char *name, const char *text)
     fclose(file);
 }
 
-/* Two unit boxes, one beside the other along x. */
+/* Two unit boxes, adjacent along x. */
 static void write_beside(const char *name, double apart, bool inwards)
 {
     char line[80];
@@ -248,7 +248,7 @@ static void what_cannot_be_had_is_refused(void **state)
                       &(Error){""}));
 }
 
-/* In another unit, a mesh is far larger than the box, or vanishes in it. */
+/* In a wrong unit, a mesh is far larger than the box, or vanishes. */
 static void a_scale_is_asked_about(void **state)
 {
     (void)state;
@@ -285,7 +285,7 @@ static void a_scale_is_asked_about(void **state)
     assert_null(strstr(error.message, "scale"));
 }
 
-/* Ten million triangles: files of their size, without a byte in them. */
+/* Ten million triangles: sparse files of the full size. */
 static void what_is_too_large_is_refused_unread(void **state)
 {
     (void)state;

@@ -1,9 +1,9 @@
-/* The metrics of a scene: how they are named, what is refused, and their numbers against sums by hand. */
+/* The metrics of a scene: names, refusals, and numbers against sums by hand. */
 #include "tests/scene/scene_text.h"
 #include "tests/sim/fixture.h"
 
-#include "app/run/measure/metric.h"
-#include "app/scene/keys.h"
+#include "app/run/measure/measure.h"
+#include "app/scene/scene.h"
 
 static Scene scene;
 static Error error;

@@ -1,4 +1,4 @@
-/* Settings put into a text: comments and layout stay, and it is read as it shall be. */
+/* Settings inserted in a text: comments and layout stay, and the result is read correctly. */
 #include "app/scene/yaml/yaml.h"
 
 #include <setjmp.h>
@@ -61,7 +61,7 @@ static void test_in_place(void **state)
     check("view.camera.from=[1, 1, 1]", "# end\n", "# end\nview: {camera: {from: [1, 1, 1]}}\n", false);
 }
 
-/* One that fits nowhere in it costs the comments of its block alone. */
+/* A setting without a fitting place costs only the comments of the block. */
 static void test_block(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* Scenes with periodic sides and a lid: how they are written, and what is refused where. */
-#include "sim/start/seed.h"
+#include "sim/start/start.h"
 #include "tests/scene/scene_text.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 #define _GNU_SOURCE /* memmem */
-/* The scene that a picture carries: what was written comes back, and what was cut or forged is said. */
+/* The scene embedded in a picture: a round trip is exact, and damage or forgery is reported. */
 #include "app/files/pictures.h"
-#include "app/scene/scene_files.h"
+#include "app/scene/scene.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -59,7 +59,7 @@ static void test_two_scenes(void **state)
     char *bytes = written(&(ImageText){"a: 1\n", "a.yaml", 0}, &size);
     char *chunk = memmem(bytes, size, "iTXtslosh scene", 15);
     assert_non_null(chunk);
-    chunk -= 4; /* its length comes first, its sum last */
+    chunk -= 4; /* the length comes first, the checksum last */
     const size_t length = 12 + (size_t)(unsigned char)chunk[3], before = (size_t)(chunk - bytes);
     char *twice = malloc(size + length);
     memcpy(twice, bytes, before + length);

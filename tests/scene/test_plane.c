@@ -1,5 +1,5 @@
 /* Scenes of two dimensions: vectors of two numbers, and what may not leave the plane. */
-#include "sim/start/seed.h"
+#include "sim/start/start.h"
 #include "tests/scene/scene_text.h"
 
 static const char flat[] =

@@ -1,9 +1,8 @@
-/* Curves by control points: what they evaluate to, how a scene says them, and what it may not say. */
+/* Curves by control points: values, syntax in a scene, and errors. */
 #include "tests/scene/scene_text.h"
 
-#include "app/scene/keys.h"
 #include "app/scene/scene.h"
-#include "sim/base/tables.h"
+#include "sim/base/base.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -100,7 +99,7 @@ static void a_scene_has_curves(void **state)
     free(print);
 }
 
-/* What is printed is read again, at the start and while it runs; a range is of one scalar. */
+/* Printed curves are readable, at the start and during a run; a range belongs to a scalar. */
 static void curves_are_set(void **state)
 {
     (void)state;

@@ -1,10 +1,11 @@
-/* solver.preset: fills in what a scene does not name, by method and dimensions, and nothing else. */
+/* solver.preset: fills in missing keys by method and dimensions, and no further keys. */
+#include "sim/methods/dfsph/dfsph.h"
 #include "sim/methods/mueller/mueller.h"
 #include "sim/methods/wcsph/wcsph.h"
 #include "tests/scene/scene_text.h"
 
 #include "app/bench/cases/case.h"
-#include "app/scene/keys.h"
+#include "app/scene/scene.h"
 #include "slosh/world.h"
 
 #include <stdlib.h>
@@ -41,9 +42,14 @@ static void it_fills_in_what_is_not_named(void **state)
     assert_true(def->reproducible);
     assert_float_equal(world_of(PLANE, NULL)->support, 3.5, 0);
     assert_float_equal(world_of(PLANE, "solver.method=mueller")->support, 2.6, 0);
+    assert_float_equal(world_of(PLANE, "solver.method=dfsph")->support, 3.1, 0);
+    assert_float_equal(dfsph_def(world_of(PLANE, "solver.method=dfsph"))->rest_viscosity, 0.15, 0);
     assert_string_equal(wcsph_def(world_of(PLANE, NULL))->kernel, "wendland_c2");
     assert_string_equal(wcsph_def(world_of(TWO_FLUIDS, NULL))->kernel, "quintic");
     assert_string_equal(wcsph_def(world_of(TWO_FLUIDS, "solver.kernel=cubic"))->kernel, "cubic");
+    def = world_of(TWO_FLUIDS, "solver.method=mueller");
+    assert_true(mueller_def(def)->numerical_viscosity == 0.01);
+    assert_true(def->support == 3 && strcmp(mueller_def(def)->density_kernel, "quintic") == 0);
 }
 
 static void it_gives_way_to_scene_and_command_line(void **state)
@@ -57,7 +63,7 @@ static void it_gives_way_to_scene_and_command_line(void **state)
     assert_string_equal(wcsph_def(world_of(LEAST, "solver.preset=accurate"))->kernel, "wendland_c2");
 }
 
-/* What the method has no use for stays at its default: nothing to warn of. */
+/* Settings unused by the method stay at default: no warnings. */
 static void a_method_gets_its_own_keys(void **state)
 {
     (void)state;
@@ -73,7 +79,7 @@ static void a_method_gets_its_own_keys(void **state)
     assert_float_equal(world_of(LEAST, "solver.method=dfsph")->cfl_number, 0.2, 0);
 }
 
-/* In the plane a support at which the lattice does not resist shear; friction of its resolution. */
+/* In the plane a support at which the lattice does not resist shear; friction of the resolution. */
 static void play_knows_the_method(void **state)
 {
     (void)state;
@@ -90,9 +96,13 @@ static void play_knows_the_method(void **state)
     assert_float_equal(def->support, 2.1, 0);
     def = world_of(PLANE, "particles={spacing: 0.1, support: 2.2}");
     assert_float_equal(def->support, 2.2, 0);
+    def = world_of(TWO_FLUIDS, "solver={method: mueller}");
+    assert_true(def->support == 3 && strcmp(mueller_def(def)->density_kernel, "quintic") == 0);
+    def = world_of(TWO_FLUIDS, "particles.support=2.2");
+    assert_string_equal(mueller_def(def)->density_kernel, "spiky");
 }
 
-/* A scene that says `play`, or nothing, is what it was before there were presets. */
+/* A scene with `play`, or without a preset, equals a scene from before presets. */
 static void play_is_the_defaults(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* --preset: what it sets in a scene, of which fluid, and what is said of it. */
-#include "app/scene/keys.h"
+/* --preset: settings that a preset changes in a scene, the chosen fluid, and the messages. */
+#include "app/scene/scene.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -38,7 +38,7 @@ static void test_fluids(void **state)
     assert_non_null(strstr(notes.line[0], "1 other stays: --preset honey:FLUID"));
     assert_true(parse("preset=lava:oil", NULL) && scene.world.fluids[1].density == 2700);
     assert_true(parse("preset=lava:1", NULL) && scene.world.fluids[1].density == 2700);
-    assert_true(parse("preset=oil:light", NULL)); /* the other one has that name */
+    assert_true(parse("preset=oil:light", NULL)); /* the second fluid has the name */
     assert_string_equal(scene.world.fluids[0].name, "light");
     assert_true(parse("fluids[0].density=1500", "preset=honey") && scene.world.fluids[0].density == 1500);
     assert_true(parse("preset=honey", "preset=lava:1") && scene.world.fluids[0].density == 1420 &&

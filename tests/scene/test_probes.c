@@ -1,7 +1,7 @@
-/* Probes in a scene file: what is read, what is refused and where, what is told. */
+/* Probes in a scene file: parsing, errors with places, notes. */
 #include "tests/scene/scene_text.h"
 
-#include "app/scene/keys.h"
+#include "app/scene/scene.h"
 
 #include <stdlib.h>
 
@@ -31,7 +31,8 @@ static void are_read(void **state)
     assert_int_equal(probe[2].count, 21);
     assert_int_equal(probe[3].count, 9);
     assert_int_equal(probe[3].fields[0], PROBE_PRESSURE);
-    assert_true(parse_set(text, "probes[0].average=0.5", &scene, &error) && probe[0].average == 0.5);
+    assert_true(parse_set(text, "probes[0].average=0.5", &scene, &error));
+    assert_true(probe[0].average == 0.01 && scene.probes.probe[0].average == 0.5); /* a new list */
     char *printed = scene_print_text(&scene);
     assert_non_null(strstr(printed, "probes[0].fields = [velocity, pressure]"));
     free(printed);
@@ -96,9 +97,10 @@ static void a_sensor_too_fine_is_told(void **state)
                            "scene.yaml:8:39: 0.2 m holds too few particles of this spacing; four spacings, "
                            "0.4 m, are taken"));
     assert_true(probe_size(&scene.probes.probe[0], 0.1, 2.1) == 0.4);
-    scene.probes.probe[0].size = 0;
-    assert_true(probe_size(&scene.probes.probe[0], 0.1, 2.1) > 0.59);
-    assert_true(probe_size(&scene.probes.probe[0], 0.1, 4) == 0.8);
+    ProbeDef probe = scene.probes.probe[0];
+    probe.size = 0;
+    assert_true(probe_size(&probe, 0.1, 2.1) > 0.59);
+    assert_true(probe_size(&probe, 0.1, 4) == 0.8);
 }
 
 int main(void)

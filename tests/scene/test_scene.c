@@ -1,7 +1,7 @@
 /* The loader on texts in memory: what a scene becomes, and what is refused with which words at which place.
  */
-#include "app/scene/scene_files.h"
-#include "sim/start/seed.h"
+#include "app/scene/scene.h"
+#include "sim/start/start.h"
 #include "slosh/world.h"
 #include "tests/scene/scene_text.h"
 
@@ -186,7 +186,7 @@ static void unknown_keys_name_the_nearest_known_one(void **state)
                    "scene.yaml:8:38: unknown key 'frequency'");
 }
 
-/* What floats needs a density, walls around it and no other motion. */
+/* A floating solid needs a density, walls around and no further motion. */
 static void what_cannot_float_is_refused(void **state)
 {
     (void)state;
@@ -298,7 +298,9 @@ static void a_viscosity_may_be_a_table(void **state)
     Error error;
     assert_true(parse_text(LEAST "    viscosity: [[1, 50], [3, 10]]\n", NULL, &scene, &error));
     assert_true(table->rows == 2 && table->time[1] == 3 && table->value[0] == 50 && table->value[1] == 10);
-    assert_true(fluid->viscosity == 50 && fluid_viscosity_at(fluid, 2) == 30);
+    assert_true(fluid->viscosity == 50);
+    world_def_at(&scene.world, 2);
+    assert_true(fluid->viscosity == 30);
     assert_true(parse_text(LEAST "    viscosity:\n      - [0.5, 7]\n", NULL, &scene, &error));
     assert_true(table->rows == 1 && table->time[0] == 0.5 && fluid->viscosity == 7);
     assert_true(

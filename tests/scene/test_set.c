@@ -1,5 +1,5 @@
 /* --set and --particles: edits of the tree before it is read. */
-#include "sim/start/seed.h"
+#include "sim/start/start.h"
 #include "slosh/world.h"
 #include "tests/scene/scene_text.h"
 
@@ -61,7 +61,7 @@ static void a_range_is_of_one_scalar(void **state)
     assert_true(range_is_auto("color_by: speed, range: [0, 2]", "view.color_by=pressure", NULL));
     assert_false(range_is_auto("color_by: speed, range: [0, 2]", "view.color_by=speed", NULL));
     assert_true(range_is_auto("range: [0, 2]", "view.color_by=pressure", NULL));
-    assert_false(range_is_auto("range: [0, 2]", "view.color_by=speed", NULL)); /* what it is without */
+    assert_false(range_is_auto("range: [0, 2]", "view.color_by=speed", NULL)); /* value without the setting */
     assert_false(range_is_auto("color_by: speed, range: [0, 2]", "view.colormap=plasma", NULL));
     assert_false(
         range_is_auto("color_by: speed, range: [0, 2]", "view.color_by=pressure", "view.range=[0, 9]"));
@@ -113,7 +113,7 @@ static void bad_settings_are_named(void **state)
     assert_set_refused("solver.backend=gpu", "solver.backend cannot be 'gpu'; it must be one of: cpu");
 }
 
-/* Parts of the scene that a setting didn't touch keep their place in the file. */
+/* Untouched parts of the scene keep the place in the file. */
 static void the_file_keeps_its_places(void **state)
 {
     (void)state;
@@ -156,7 +156,7 @@ static void particles_choose_the_spacing_and_scale_the_step(void **state)
     assert_true(scene.world.max_dt == 0.004);
     assert_string_equal(notes.line[0], "--particles 4000: a spacing of 0.05 m gives 4000");
 
-    settings.set[0] = "solver.step={mode: cfl}"; /* whose step follows the spacing by itself */
+    settings.set[0] = "solver.step={mode: cfl}"; /* with steps that follow the spacing */
     assert_true(scene_parse("s", LEAST, strlen(LEAST), &settings, &scene, &notes, &error));
     assert_true(scene.world.dt == world_def_default().dt);
     assert_string_equal(notes.line[0], "--particles 4000: a spacing of 0.05 m gives 4000");

@@ -1,7 +1,7 @@
-/* What a scene does not name of sound and step fits its size; what it names stays. */
+/* Default sound speed and step fit the scene's size; named values stay. */
 #include "tests/scene/scene_text.h"
 
-#include "sim/step/step_control.h"
+#include "sim/step/constants.h"
 
 #include <math.h>
 
@@ -43,6 +43,8 @@ static void a_scene_of_a_hand_has_the_usual_ones(void **state)
     const WorldDef *def = dam(0.6, "");
     assert_true(def->sound_speed == 20 && def->dt == 0.01 && def->substeps == 10);
     assert_int_equal(notes.count, 0);
+    const double calm = share(dam(0.057, "density_kernel: quintic")); /* is stiffer */
+    assert_true(calm <= 0.8 * STEP_SOUND_CALM && calm > 0.95 * 0.8 * STEP_SOUND_CALM);
 }
 
 static void any_size_has_sound_and_steps_of_its_own(void **state)
@@ -107,7 +109,7 @@ static void friction_and_speed_bind_too(void **state)
     assert_int_equal(def->step_mode, STEP_CFL);
 }
 
-/* A jet of pbf needs steps of a spacing, and calm fluid none; a scene that names a step has that step. */
+/* A jet of pbf needs steps of a spacing, calm fluid does not; a named step stays. */
 static void a_step_of_pbf_follows_the_flow(void **state)
 {
     (void)state;

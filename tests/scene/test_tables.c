@@ -1,9 +1,9 @@
-/* Tables of heights and velocities at the start: files that are right, and files that are not. */
+/* Tables of heights and velocities at the start: valid and invalid files. */
 #include "tests/scene/scene_text.h"
 #include "tests/scratch.h"
 
 #include "app/scene/import/import.h"
-#include "sim/start/fill.h"
+#include "sim/start/start.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -46,7 +46,7 @@ static void heights_along_x(void **state)
     field_file_free(table);
 }
 
-/* As spreadsheets of other languages write it. */
+/* As written by spreadsheets of further languages. */
 static void semicolons_and_quotes(void **state)
 {
     (void)state;
@@ -69,7 +69,7 @@ static void semicolons_and_quotes(void **state)
     assert_non_null(strstr(error.message, ":3: more than 2 cells; "));
 }
 
-/* What is linear along each axis comes out as it is. */
+/* Fields linear along each axis are interpolated exactly. */
 static void velocities_of_a_grid(void **state)
 {
     (void)state;
@@ -160,7 +160,7 @@ static bool load(const char *text, Error *error)
     "  - velocity_table: flow.csv\n"                                                                         \
     "    fill: [{block: {min: [-0.5, 0], max: [0.5, 1]}, below: heights.csv}]\n"
 
-/* Found from the scene's folder; with places enough nothing is said, beyond them a line each. */
+/* Found from the scene's folder; no notes with enough places, beyond the table a line each. */
 static void tables_of_a_scene(void **state)
 {
     (void)state;

@@ -1,17 +1,16 @@
 /* A tree as YAML again is the same scene. */
 #include "tests/sim/fixture.h"
 
-#include "app/scene/keys.h"
-#include "app/scene/scene_files.h"
+#include "app/scene/scene.h"
 #include "app/scene/yaml/yaml.h"
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 static Error error;
 
-/* The tree of a text with one more setting (NULL: none), printed; the caller frees it. */
+/* The tree of a text with a setting added (NULL: none), printed; freed by the caller. */
 static char *printed(const char *path, const char *bytes, size_t size, const char *setting, const char *said)
 {
     YamlTree tree;

@@ -1,7 +1,6 @@
-/* Pictures beside each other: each entry of views is view but for what it says. */
+/* Pictures in panels: each entry of views is `view` with the entry's settings. */
 #include "tests/scene/scene_text.h"
 
-#include "app/scene/keys.h"
 #include "app/scene/scene.h"
 #include "render/overlays/trails/trails.h"
 #include "render/views/slice/slice.h"
@@ -175,7 +174,7 @@ static void entries_have_sources(void **state)
     assert_non_null(strstr(error.message, "leave it out of one, which shows the scene"));
 }
 
-/* Which scalars there are, the method says: each entry's own, and nobody else's. */
+/* The method decides the available scalars: each entry's own method only. */
 static void each_is_judged_by_its_own_settings(void **state)
 {
     (void)state;
@@ -183,7 +182,8 @@ static void each_is_judged_by_its_own_settings(void **state)
     const char *text =
         LEAST "solver: {method: dfsph}\nviews: [{color_by: kept_term}, "
               "{set: {solver.method: mueller}, color_by: kept_term}, {file: a.h5part, color_by: rate}]\n";
-    SceneSettings mueller = {.count = 1, .set = {"solver.method=mueller"}, .beside = "solver.method=mueller"};
+    SceneSettings mueller = {
+        .count = 1, .set = {"solver.method=mueller"}, .compared_set = "solver.method=mueller"};
     if (!parse_text(text, NULL, &scene, &error))
         fail_msg("%s", error.message);
     assert_true(scene_set_live(&scene, "views[0].color_by=speed", NULL, &error));
@@ -191,20 +191,20 @@ static void each_is_judged_by_its_own_settings(void **state)
     assert_non_null(strstr(error.message, "particles of this scene have no kept_term"));
     assert_refused(LEAST "views: [{color_by: kept_term}, {set: {solver.method: dfsph}}]\n",
                    "scene.yaml:7:20: particles of this scene have no kept_term");
-    mueller.set[0] = mueller.beside = "solver.method=dfsph";
+    mueller.set[0] = mueller.compared_set = "solver.method=dfsph";
     if (!parse_text(LEAST "views: [{}, {set: {solver.method: dfsph}, color_by: kept_term}]\n", &mueller,
                     &scene, &error))
         fail_msg("%s", error.message);
 }
 
-/* They are a column of the world whose view reads them. */
+/* A column of the world, if a view reads accelerations. */
 static void accelerations_of_others_cost_the_scene_nothing(void **state)
 {
     (void)state;
     Error error = {{0}};
     const char *text = LEAST "views: [{}, {file: a.h5part, color_by: acceleration_y}, "
                              "{set: {gravity: [0, -3, 0]}, color_by: acceleration}]\n";
-    SceneSettings set = {.count = 1, .set = {"gravity=[0, -3, 0]"}, .beside = "gravity=[0, -3, 0]"};
+    SceneSettings set = {.count = 1, .set = {"gravity=[0, -3, 0]"}, .compared_set = "gravity=[0, -3, 0]"};
     if (!parse_text(text, NULL, &scene, &error))
         fail_msg("%s", error.message);
     assert_false(scene.world.acceleration);

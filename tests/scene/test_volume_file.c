@@ -1,7 +1,7 @@
 /* Volume data from a header and a raw file. */
-#include "tests/near.h"
 #include "tests/scene/scene_text.h"
 #include "tests/scratch.h"
+#include "tests/tolerance.h"
 
 #include "app/base/program.h"
 #include "app/scene/import/import.h"
@@ -144,7 +144,7 @@ static void check_raw_refused(const char *folder, const char *raw_name, const ch
     unlink(header);
 }
 
-/* What has no length, may never end, or is more than the machine can hold: refused before it is read. */
+/* Without length, endless, or larger than memory: refused before reading. */
 static void a_raw_file_that_cannot_be_read_whole_is_refused(void **state)
 {
     (void)state;

@@ -2,7 +2,9 @@
 #ifndef SLOSH_TEST_FIXTURE_H
 #define SLOSH_TEST_FIXTURE_H
 
-#include "sim/gpu/gl_context.h"
+#include "tests/lists.h"
+
+#include "sim/gpu/gl.h"
 #include "sim/step/backend.h"
 #include "sim/step/method.h"
 #include "slosh/world.h"
@@ -86,7 +88,8 @@ static inline void fixture_needs(const char *term)
     skip();
 }
 
-/* All methods, and how many of them, from the first on, the backend has: for tests that run them all. */
+/* All methods, and how many of the list, from the first, the backend supports: for tests over all
+   methods. */
 static const char *const fixture_method_names[]
     __attribute__((unused)) = {"mueller", "wcsph", "dfsph", "pbf"};
 
@@ -116,7 +119,7 @@ static inline WorldDef fixture_def(double width, double height, double depth)
     def.fluids[0] = (FluidDef){.name = "water", .density = 1000};
     def.dt = 0.002;
     def.substeps = 1;
-    def.retries = 0; /* what a step does is what is tested */
+    def.retries = 0; /* tests the effect of a step */
     def.reproducible = true;
     snprintf(def.backend, sizeof def.backend, "%s", fixture_backend());
     snprintf(def.method, sizeof def.method, "%s", fixture_method());
@@ -134,7 +137,7 @@ static inline void fixture_block(WorldDef *def, int fluid, double x0, double y0,
                                  double y1, double z1)
 {
     FluidDef *f = &def->fluids[fluid];
-    f->fills[f->fill_count++] = (Fill){.kind = FILL_BLOCK, .min = {x0, y0, z0}, .max = {x1, y1, z1}};
+    add_fill(f, (Fill){.kind = FILL_BLOCK, .min = {x0, y0, z0}, .max = {x1, y1, z1}});
 }
 
 /* Fails the test with the reason when the world can't be made. */

@@ -1,6 +1,6 @@
 /* The box in the hand: within its limits, without overshoot, without a force that is not the world's. */
 #include "fixture.h"
-#include "tests/near.h"
+#include "tests/tolerance.h"
 
 #include <string.h>
 
@@ -181,8 +181,8 @@ static double change_of(const double before[3], const double after[3], double dt
     return norm((double[]){after[0] - before[0], after[1] - before[1], after[2] - before[2]}) / dt;
 }
 
-/* A hand that moves while time is paused gives many targets and no step. When time goes on the last one alone
- * counts, and the box goes there within its limits: no leap is felt. */
+/* A hand moving during a pause gives many targets and no step. Afterwards only the last target counts,
+   and the box goes there within the limits, without a jump. */
 static void what_waited_comes_within_the_limits(void **state)
 {
     (void)state;
@@ -216,8 +216,7 @@ static void what_waited_comes_within_the_limits(void **state)
     world_destroy(told);
 }
 
-/* A box that is carried away takes its fluid along: not a bit of it changes, and it goes on as if nothing had
- * been. */
+/* A carried box takes the fluid along: no bit changes, and the run continues undisturbed. */
 static void carry_is_not_felt(void **state)
 {
     (void)state;
@@ -238,7 +237,7 @@ static void carry_is_not_felt(void **state)
     world_destroy(carried);
 }
 
-/* A pose that is not one changes nothing. */
+/* An invalid pose has no effect. */
 static void nonsense_is_not_taken(void **state)
 {
     (void)state;

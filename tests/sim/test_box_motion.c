@@ -1,10 +1,12 @@
 /* The box as the frame of reference: against the parabola of the world's frame; sim.box_surface has the
  * surface of fluid. */
+#include "tests/lists.h"
+
 #include "fixture.h"
 
-#include "sim/box/box_step.h"
+#include "sim/box/box.h"
 
-/* A turn about an axis that itself moves, and a shake: nothing is constant in the box's frame. */
+/* A turn about a moving axis, and a shake: no quantity is constant in the box's frame. */
 static const Motion wild[] = {
     {.kind = MOTION_SHAKE, .axis = {1, 0.5, 0.2}, .amplitude = 0.3, .frequency = 1.1},
     {.kind = MOTION_ROCK, .axis = {0.1, 0, 1}, .angle_deg = 40, .frequency = 0.7},
@@ -109,7 +111,7 @@ static void lone_particle_follows_the_parabola(void **state)
     def.substeps = 3;
     fixture_layers(&def, 1);
     def.motion_count = WILD;
-    memcpy(def.motions, wild, sizeof wild);
+    def.motions = wild;
     const float x0[3] = {0.5f, 4.5f, -0.3f}, v0[3] = {0.4f, 2.5f, 0.3f};
     def.initial = &(InitialState){.count = 1, .position = x0, .velocity = v0};
     World *world = fixture_world(&def);
@@ -147,8 +149,7 @@ static void fluid_floats_in_free_fall(void **state)
     (void)state;
     WorldDef def = fixture_def(1, 1, 1);
     fixture_block(&def, 0, -0.3, 0.3, -0.3, 0.3, 0.7, 0.3);
-    def.motion_count = 1;
-    def.motions[0] = (Motion){.kind = MOTION_ACCELERATE, .axis = {0, -1, 0}, .acceleration = 9.81};
+    add_motion(&def, (Motion){.kind = MOTION_ACCELERATE, .axis = {0, -1, 0}, .acceleration = 9.81});
     World *world = fixture_world(&def);
     WorldSums before, after;
     world_sums(world, &before);

@@ -1,4 +1,6 @@
 /* The surface of fluid in a box that has turned, or spins: thousands of steps. */
+#include "tests/lists.h"
+
 #include "fixture.h"
 
 /* Least squares of y = a + b u over the highest particle of each column of cells one spacing wide, `u` given.
@@ -46,8 +48,7 @@ static void tilted_box_ends_level(void **state)
     def.dt = fixture_coarse(0.0015, 0.005);
     def.fluids[0].viscosity = on_cpu ? 100 : 400; /* at rest sooner */
     fixture_block(&def, 0, -0.8, 0, -0.8, 0.8, 1.0, 0.8);
-    def.motion_count = 1;
-    def.motions[0] = (Motion){.kind = MOTION_TURN, .axis = {0, 0, 1}, .angle_deg = 30, .duration = 1};
+    add_motion(&def, (Motion){.kind = MOTION_TURN, .axis = {0, 0, 1}, .angle_deg = 30, .duration = 1});
     World *world = fixture_world(&def);
     fixture_step(world, fixture_count(5000, on_cpu ? 800 : 450));
     State s = fixture_read(world);
@@ -78,8 +79,7 @@ static void bucket_has_its_parabola(void **state)
     def.dt = fixture_coarse(0.0012, 0.005);
     def.fluids[0].viscosity = fixture_coarse(100, 300);
     fixture_block(&def, 0, -0.8, 0, -0.8, 0.8, 0.96, 0.8);
-    def.motion_count = 1;
-    def.motions[0] = (Motion){.kind = MOTION_SPIN, .axis = {0, 1, 0}, .rate = omega};
+    add_motion(&def, (Motion){.kind = MOTION_SPIN, .axis = {0, 1, 0}, .rate = omega});
     World *world = fixture_world(&def);
     fixture_step(world, fixture_count(2500, 300));
     State s = fixture_read(world);

@@ -13,7 +13,7 @@ static WorldDef two_fluids(void)
     return def;
 }
 
-/* A world that is changed before its first step is the world that was made so. */
+/* A world changed before the first step equals a world made with the change. */
 static void changed_at_the_start_is_made_so(void **state)
 {
     (void)state;
@@ -88,7 +88,7 @@ static void nonsense_changes_nothing(void **state)
     world_destroy(left);
 }
 
-/* It turns about half its height: fluid at rest in a tilted box without gravity stays in its place there. */
+/* A turn about half the height: fluid at rest in a tilted box without gravity stays in place. */
 static void a_tilted_box_grows_without_a_jerk(void **state)
 {
     (void)state;

@@ -2,13 +2,12 @@
 #include "fixture.h"
 
 #include "sim/cpu/cpu.h"
-#include "sim/step/cells.h"
+#include "sim/step/backend.h"
 #include "sim/step/world.h"
 
 #include <stdlib.h>
 
-/* Two clumps far from each other, one on the floor; `periodic`: along x and z, across whose sides clumps
- * reach. */
+/* Two distant clumps, the first on the floor; `periodic`: along x and z, with clumps across the sides. */
 static WorldDef two_clumps(double size, bool periodic)
 {
     WorldDef def = fixture_def(size, size, size);
@@ -37,8 +36,7 @@ static CellFold fold_of(const WorldDef *def, size_t particles)
     return fold;
 }
 
-/* What is summed cell by cell has the same bits on ranks, which share other places: each cell's particles
-   follow each other. */
+/* Sums by cell have the same bits on ranks with different sharing: each cell's particles are contiguous. */
 static void check_cells_are_whole(const World *world)
 {
     const Cpu *cpu = world->state;
@@ -47,8 +45,8 @@ static void check_cells_are_whole(const World *world)
             assert_int_not_equal(cpu->cell[i], cpu->cell[j]);
 }
 
-/* What the watch over energy asks, with the surface of fluid whose tension pulls: sides of cells that are
-   empty. Where they share their places with fluid some are missed. */
+/* The energy watch's bound for the surface of fluid with tension: sides of empty cells. If empty cells
+   share places with fluid, some sides are missed. */
 static EnergySums energy_of(World *world)
 {
     EnergySums sums = {.own = 0};

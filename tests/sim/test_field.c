@@ -59,8 +59,8 @@ static void assert_like_brute_force(const FieldParticles *particles, const Volum
             }
 }
 
-/* Around the particles, cut through them, beside them, coarse, of one cell, long, and of cells far smaller
- * than h. */
+/* Around the particles, cutting particles, beside, coarse, a single cell, long, and cells far smaller
+   than h. */
 static void each_value_is_the_sum_over_all_particles(void **state)
 {
     (void)state;

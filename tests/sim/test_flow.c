@@ -1,8 +1,10 @@
-/* Emitters and drains: how much comes, in which order, how many at most, what is saved of it. */
+/* Emitters and drains: amount, order, limit, and saved state. */
+#include "tests/lists.h"
+
 #include "fixture.h"
 
 #include "sim/flow/flow.h"
-#include "sim/start/seed.h"
+#include "sim/start/start.h"
 #include "slosh/state.h"
 
 static WorldDef jet_def(int dimensions)
@@ -13,8 +15,8 @@ static WorldDef jet_def(int dimensions)
     def.spacing = 0.05;
     def.sound_speed = 20;
     def.most = 5000;
-    def.fluids[0].emits[def.fluids[0].emit_count++] =
-        (Emit){.centre = {-1.8, 0.5, 0}, .direction = {3, 0, 0}, .radius = 0.2, .speed = 2};
+    add_emit(&def.fluids[0],
+             (Emit){.centre = {-1.8, 0.5, 0}, .direction = {3, 0, 0}, .radius = 0.2, .speed = 2});
     return def;
 }
 
@@ -63,7 +65,7 @@ static void layers_come_in_time(void **state)
     }
 }
 
-/* What comes out is a lattice at rest density, that moves as it should; as much as speed times area. */
+/* Emitted fluid is a lattice at rest density with the correct velocity; the rate is speed times area. */
 static void a_jet_is_a_lattice(void **state)
 {
     (void)state;
@@ -96,8 +98,8 @@ static void a_jet_is_a_lattice(void **state)
         }
 }
 
-/* Radii of less than a spacing to many: a layer is the disk's area, in two dimensions its width, times a
-   spacing, to one particle in the sum; it lies within the disk, but for a spacing's half, and no two are
+/* Radii from less than a spacing to many. A layer is the disk's area (in 2D the width) times a spacing,
+   to a particle in the sum. The layer lies within the disk to half a spacing, and no two particles are
    nearer than a spacing. */
 static void a_layer_is_the_disk(void **state)
 {
@@ -143,7 +145,7 @@ static void the_bound_holds(void **state)
     assert_int_equal(info_of(world).emitted, most);
     world_destroy(world);
 
-    def.drains[def.drain_count++] = (Fill){.kind = FILL_BALL, .centre = {-0.8, 0.5, 0}, .radius = 0.5};
+    add_drain(&def, (Fill){.kind = FILL_BALL, .centre = {-0.8, 0.5, 0}, .radius = 0.5});
     world = fixture_world(&def);
     for (int i = 0; i < most; i++) {
         fixture_step(world, 1);
@@ -161,7 +163,7 @@ static void the_bound_holds(void **state)
     world_destroy(world);
 }
 
-/* Into a box that is full nothing comes, and nothing is blown apart: the emitter is a pump. */
+/* A full box accepts no fluid, without blow-up: the emitter is a pump. */
 static void a_full_box_takes_nothing(void **state)
 {
     (void)state;
@@ -169,8 +171,8 @@ static void a_full_box_takes_nothing(void **state)
     def.most = 100000;
     def.sound_speed = 30;
     fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 1, 0.5);
-    def.fluids[0].emits[def.fluids[0].emit_count++] =
-        (Emit){.centre = {0, 0.5, 0}, .direction = {0, 1, 0}, .radius = 0.2, .speed = 1};
+    add_emit(&def.fluids[0],
+             (Emit){.centre = {0, 0.5, 0}, .direction = {0, 1, 0}, .radius = 0.2, .speed = 1});
     World *world = fixture_world(&def);
     fixture_step(world, fixture_count(300, 100));
     WorldSums sums;
@@ -196,7 +198,7 @@ static double least_distance(World *world)
     return sqrt(least2);
 }
 
-/* A disk that is a wall, or lies on one, gives what any does. */
+/* A disk on a wall, or as a wall, emits as usual. */
 static void a_wall_may_hold_the_disk(void **state)
 {
     (void)state;
@@ -204,7 +206,7 @@ static void a_wall_may_hold_the_disk(void **state)
                  directions[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
     for (int i = 0; i < 3; i++) {
         WorldDef def = jet_def(3);
-        Emit *emit = &def.fluids[0].emits[0];
+        Emit *emit = own_emits(&def.fluids[0]);
         memcpy(emit->centre, centres[i], sizeof emit->centre);
         memcpy(emit->direction, directions[i], sizeof emit->direction);
         emit->radius = 0.15;
@@ -215,16 +217,14 @@ static void a_wall_may_hold_the_disk(void **state)
     }
 }
 
-/* Two disks on the same place, against each other: only one of two particles has room. Nor in a solid, though
-   it is hollow, nor where one comes by. */
+/* Two opposed disks in the same place: only a single particle of two has space. Also not inside a hollow
+   solid, nor near a passing solid. */
 static void nothing_comes_where_something_is(void **state)
 {
     (void)state;
     WorldDef def = jet_def(3);
-    def.fluids[0].emits[1] = def.fluids[0].emits[0];
-    def.fluids[0].emits[1].direction[0] = -1;
-    def.fluids[0].emits[0].centre[0] = def.fluids[0].emits[1].centre[0] = 0;
-    def.fluids[0].emit_count = 2;
+    own_emits(&def.fluids[0])->centre[0] = 0;
+    add_emit(&def.fluids[0], def.fluids[0].emits[0])->direction[0] = -1;
     World *world = fixture_world(&def);
     fixture_step(world, 1);
     assert_true(info_of(world).emitted > 0 && least_distance(world) > 0.8 * def.spacing);
@@ -235,8 +235,8 @@ static void nothing_comes_where_something_is(void **state)
         SolidDef *ball = &def.solids[def.solid_count++];
         *ball = (SolidDef){.kind = SOLID_SPHERE, .centre = {-1.8, 0.5, 0}, .radius = 0.45, .axis = {0, 1, 0}};
         if (moves)
-            ball->motions[ball->motion_count++] =
-                (Motion){.kind = MOTION_SHAKE, .axis = {0, 1, 0}, .amplitude = 0.01, .frequency = 2};
+            add_solid_motion(
+                ball, (Motion){.kind = MOTION_SHAKE, .axis = {0, 1, 0}, .amplitude = 0.01, .frequency = 2});
         world = fixture_world(&def);
         fixture_step(world, 100);
         assert_int_equal(info_of(world).emitted, 0);
@@ -257,15 +257,16 @@ static WorldDef busy_def(const char *method)
     def.fluids[0].viscosity = 1;
     def.fluids[1] = (FluidDef){.name = "oil", .density = 800, .viscosity = 3};
     fixture_block(&def, 0, -0.6, 0, -0.4, 0.2, 0.3, 0.4);
-    def.fluids[1].emits[def.fluids[1].emit_count++] = (Emit){
-        .centre = {-0.2, 0.8, 0}, .direction = {0.3, -1, 0}, .radius = 0.13, .speed = 2, .start = 0.05};
-    def.drains[def.drain_count++] = (Fill){.kind = FILL_BLOCK, .min = {0.4, 0, -0.4}, .max = {0.6, 0.2, 0.4}};
-    def.motions[def.motion_count++] =
-        (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.05, .frequency = 2};
+    add_emit(
+        &def.fluids[1],
+        (Emit){
+            .centre = {-0.2, 0.8, 0}, .direction = {0.3, -1, 0}, .radius = 0.13, .speed = 2, .start = 0.05});
+    add_drain(&def, (Fill){.kind = FILL_BLOCK, .min = {0.4, 0, -0.4}, .max = {0.6, 0.2, 0.4}});
+    add_motion(&def, (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.05, .frequency = 2});
     SolidDef *paddle = &def.solids[def.solid_count++];
     *paddle = (SolidDef){.kind = SOLID_SPHERE, .centre = {0, 0.3, 0}, .radius = 0.15, .slip = SLIP_NONE};
-    paddle->motions[paddle->motion_count++] =
-        (Motion){.kind = MOTION_SHAKE, .axis = {0, 0, 1}, .amplitude = 0.1, .frequency = 3};
+    add_solid_motion(paddle,
+                     (Motion){.kind = MOTION_SHAKE, .axis = {0, 0, 1}, .amplitude = 0.1, .frequency = 3});
     return def;
 }
 
@@ -334,15 +335,18 @@ static bool is_of(const Emit *emit, double spacing, double born)
     return layers > -1e-4 && fabs(layers - round(layers)) < 1e-4;
 }
 
-/* Of two emitters that work at times of their own, each particle has the time of a layer, within the frame in
-   which it was first seen. */
+/* With two emitters at separate times, each particle has the time of a layer, within the frame of first
+   appearance. */
 static void births_are_times_of_layers(void **state)
 {
     (void)state;
     enum { IDS_MOST = 4000 };
     WorldDef def = busy_def("mueller");
-    def.fluids[0].emits[def.fluids[0].emit_count++] = (Emit){
-        .centre = {0.3, 0.8, 0.1}, .direction = {0, -1, 0}, .radius = 0.1, .speed = 1.37, .start = 0.0313};
+    add_emit(&def.fluids[0], (Emit){.centre = {0.3, 0.8, 0.1},
+                                    .direction = {0, -1, 0},
+                                    .radius = 0.1,
+                                    .speed = 1.37,
+                                    .start = 0.0313});
     const size_t initial = seed_count(&def, def.spacing);
     double *seen = calloc(IDS_MOST, sizeof *seen);
     size_t count, of[2] = {0};
@@ -383,7 +387,7 @@ static void same_births(World *one, World *other)
     free(b);
 }
 
-/* Also into a world that has gone on otherwise; a state that does not say them leaves them open. */
+/* Also into a world with a different history; a state without gates leaves all gates open. */
 static void births_are_saved(void **state)
 {
     (void)state;
@@ -556,10 +560,11 @@ static void births_of_the_drained_are_forgotten(void **state)
 {
     (void)state;
     WorldDef def = jet_def(3);
-    def.fluids[0].emits[0].radius = 0.0283; /* of one particle */
-    def.fluids[0].emits[0].speed = 10;
+    Emit *jet = own_emits(&def.fluids[0]);
+    jet->radius = 0.0283; /* of a particle */
+    jet->speed = 10;
     def.dt = 0.01;
-    def.drains[def.drain_count++] = (Fill){.kind = FILL_BLOCK, .min = {-1, 0, -0.5}, .max = {1.9, 1, 0.5}};
+    add_drain(&def, (Fill){.kind = FILL_BLOCK, .min = {-1, 0, -0.5}, .max = {1.9, 1, 0.5}});
     World *world = fixture_world(&def);
     WorldState saved = {0};
     Error error;

@@ -53,8 +53,8 @@ static double distance(const Reference *r, int i, int j, double d[3])
     return sqrt(sum);
 }
 
-/* At the middle of the step, where the solver evaluates; after docs/methods.md, in double and without any
- * grid.
+/* At the middle of the step, where the solver evaluates; after docs/labbook/methods.md, in double and without
+ * any grid.
  */
 static void brute_accelerations(const WorldDef *def, const Cloud *cloud, Reference *r)
 {
@@ -62,7 +62,8 @@ static void brute_accelerations(const WorldDef *def, const Cloud *cloud, Referen
     const double h = def->support * def->spacing, s3 = pow(def->spacing, 3),
                  c2 = def->sound_speed * def->sound_speed;
     Lattice lattice;
-    lattice_calibrate(3, def->spacing, h, kernel, &density_kernels[0], &lattice);
+    const Kernel *slope = method_kernels(def).slope;
+    lattice_calibrate(3, def->spacing, h, kernel, slope, &lattice);
     double d[3];
     for (int i = 0; i < COUNT; i++)
         for (int k = 0; k < 3; k++)
@@ -86,8 +87,7 @@ static void brute_accelerations(const WorldDef *def, const Cloud *cloud, Referen
             if (i == j || q >= h)
                 continue;
             const FluidDef *fj = &def->fluids[cloud->fluid[j]];
-            const double push =
-                -lattice.gradient_scale * kernel_spiky_derivative(q, h) * (r->term[i] + r->term[j]);
+            const double push = -lattice.gradient_scale * slope->derivative(q, h) * (r->term[i] + r->term[j]);
             const double drag = lattice.laplacian_scale * kernel_viscosity_laplacian(q, h) * 0.5 *
                                 pair_viscosity(fi->viscosity, fj->viscosity) / (r->n[i] * r->n[j]);
             r->scale[i] += (fabs(push) + drag) / mass;
@@ -137,6 +137,7 @@ static void accelerations_equal_brute_force(void **state)
     compare("spiky", false, 0.9);
     compare("spiky", true, 1.1);
     compare("poly6", false, 0.9);
+    compare("quintic", false, 0.9);
     compare("spiky", false, 0.5);
 }
 

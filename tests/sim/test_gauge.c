@@ -1,7 +1,7 @@
-/* What is plotted of a world while it runs, against sums in double over the particles that are read back. */
+/* Gauges of a running world, against sums in double over particles read back. */
 #include "fixture.h"
 
-#include "sim/step/backend_sums.h"
+#include "sim/step/backend.h"
 #include "slosh/def.h"
 
 #include <time.h>
@@ -15,7 +15,7 @@ typedef struct Read {
 
 static Read all;
 
-/* On a GPU it comes when it comes. */
+/* On a GPU with delay. */
 static bool answered(World *world, WorldGauge *gauge)
 {
     for (int tries = 0; tries < 5000; tries++) {
@@ -101,7 +101,7 @@ static void compare(const WorldDef *def)
     const BoxTarget turned = {.orientation = {0.2, 0.1, 0.3, 0.9}};
     world_carry_box(world, &turned);
     fixture_step(world, fixture_count(30, 10));
-    assert_false(world_gauge(world, &gauge)); /* nobody has asked */
+    assert_false(world_gauge(world, &gauge)); /* not requested */
     const WorldGauge expected = brute_force(def, world);
     world_gauge_request(world);
     world_info(world, &info);
@@ -201,7 +201,7 @@ static void courant_number_is_of_the_last_step(void **state)
     world_info(world, &info);
     assert_true(info.courant == 0);
     fixture_step(world, 5);
-    world_is_valid(world); /* asks a GPU what it has found */
+    world_is_valid(world); /* reads a GPU's findings */
     world_info(world, &info);
     world_sums(world, &sums);
     const double c = def.sound_speed, h = def.support * def.spacing;

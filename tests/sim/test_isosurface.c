@@ -58,7 +58,7 @@ static IsoMesh march(const int size[3], const float *values, float level)
 
 /* ---- what each mesh must be ---- */
 
-/* Every vertex is used, and none lies where another does: no two on one edge of the grid, none at its end. */
+/* Every vertex is used, and vertices are distinct: no two on an edge of the grid, none at an edge's end. */
 static void assert_vertices_differ(const IsoMesh *mesh)
 {
     uint64_t *key = malloc((mesh->vertex_count + 1) * sizeof *key);
@@ -190,7 +190,7 @@ static void each_case_is_closed(void **state)
     }
 }
 
-/* A fluid that reaches the border is closed there; nothing gives nothing. */
+/* A fluid at the border is closed; an empty field gives no mesh. */
 static void the_border_is_outside(void **state)
 {
     (void)state;
@@ -231,7 +231,7 @@ static double plane(double x, double y, double z)
     return 2 * x - 3 * y + 5 * z;
 }
 
-/* A linear field is what it is at each vertex, and so is its slope, at the border too. */
+/* A linear field is exact at each vertex, with exact slope, at the border too. */
 static void values_and_slopes_at_the_vertices(void **state)
 {
     (void)state;

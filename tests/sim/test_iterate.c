@@ -1,6 +1,6 @@
 /* What is counted of solvers that iterate: over steps, in bounded memory. */
 #include "sim/methods/dfsph/dfsph.h"
-#include "sim/step/iterate.h"
+#include "sim/step/substep.h"
 #include "slosh/state.h"
 #include "tests/sim/fixture.h"
 
@@ -98,7 +98,7 @@ static void a_world_counts(void **state)
     world_destroy(other);
 }
 
-/* A step that trouble takes back is not counted, and the trouble says which solver it was. */
+/* A step taken back is not counted, and the trouble names the solver. */
 static void trouble_names_its_solver(void **state)
 {
     (void)state;

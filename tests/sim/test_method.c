@@ -1,12 +1,12 @@
-/* What a method says of itself holds: the columns that its passes read and write, its equation of state. */
+/* A method's declarations hold: columns read and written by passes, and the equation of state. */
 #include "sim/cpu/cpu.h"
 #include "sim/methods/wcsph/wcsph.h"
-#include "sim/step/backend_sums.h"
+#include "sim/step/backend.h"
 #include "sim/step/world.h"
 #include "tests/sim/fixture.h"
 #include "tests/sim/toy_method.h"
 
-/* A plane with all terms that a scene may name: two fluids, one of them viscous, around a ball. */
+/* A plane with all possible terms: two fluids, the second viscous, around a ball. */
 static WorldDef full_def(const Method *method)
 {
     WorldDef def = fixture_def(1, 1, 1);
@@ -82,12 +82,12 @@ static void passes_name_columns_that_exist(void **state)
 /* How many of the rows' components that are saved are scalars by that name and unit. */
 static int scalars_of(const ColumnDef *row, Scalar only)
 {
-    char name[COLUMN_NAME_SIZE];
+    char name[32];
     int found = 0;
     for (; row && row->name; row++)
         for (int k = 0; row->flags & COLUMN_SAVED && column_own(row) >= 0 && k < row->components; k++) {
             int known = 0;
-            column_scalar_name(row, k, name);
+            snprintf(name, sizeof name, row->components > 1 ? "%s_%c" : "%s", row->name, 'x' + k);
             for (int s = SCALAR_OWN; s < SCALAR_BORN; s++)
                 if (strcmp(name, scalar_list[s].name) == 0 && strcmp(row->unit, scalar_list[s].unit) == 0) {
                     known++;
@@ -125,7 +125,7 @@ static bool same(const Cpu *cpu, const ColumnDef *row, int component, ParticleCo
     return true;
 }
 
-/* NaN, or numbers that nobody has. */
+/* NaN, or absurd numbers. */
 static void poison(Cpu *cpu, const ColumnDef *row)
 {
     for (int c = 0; c < row->components; c++) {
@@ -135,8 +135,7 @@ static void poison(Cpu *cpu, const ColumnDef *row)
     }
 }
 
-/* A pass has made `after` of `before`, and `poisoned` where columns that it does not read held other numbers.
- */
+/* A pass turned `before` into `after`, and into `poisoned` with different numbers in unread columns. */
 static void check_column(const Cpu *cpu, const Pass *pass, const ColumnDef *row, ParticleColumns *before,
                          ParticleColumns *after, ParticleColumns *poisoned)
 {
@@ -150,8 +149,8 @@ static void check_column(const Cpu *cpu, const Pass *pass, const ColumnDef *row,
     }
 }
 
-/* It leaves all columns but those that it writes, and has the same results whatever is in those that it does
-   not read. */
+/* A pass leaves all columns except written columns, and has the same results for any content of unread
+   columns. */
 static void check_pass(const World *world, const Pass *pass)
 {
     static const ApparentGravity apparent = {.origin = {0.5F, -9.81F, 0}};

@@ -1,5 +1,5 @@
-/* The lists of neighbours against brute force over all pairs: of every instruction set, in crowds that no
-   block of candidates holds, in planes, across periodic sides, of particles on one another. */
+/* Neighbour lists against brute force over all pairs: of every instruction set, in crowds larger than a
+   block of candidates, in planes, across periodic sides, of coincident particles. */
 #include "fixture.h"
 
 #include "sim/cpu/cpu.h"
@@ -60,7 +60,7 @@ static int relation(const Cpu *cpu, size_t i, size_t j, double reach)
     return fabs(r / reach - 1) < 1e-5 ? -1 : r < reach;
 }
 
-/* Of which particle entry j is: across a periodic side it is a copy, which stands near. */
+/* The particle of entry j: across a periodic side a nearby copy. */
 static size_t listed_one(const Cpu *cpu, size_t i, size_t j)
 {
     const CpuParticles *p = &cpu->now;
@@ -71,7 +71,7 @@ static size_t listed_one(const Cpu *cpu, size_t i, size_t j)
     return j < COUNT ? j : cpu->copy_of[j];
 }
 
-/* Whether another one is where it is. */
+/* True if a second particle has the same position. */
 static bool check_list(const Cpu *cpu, size_t i, const char *name)
 {
     static uint8_t listed[COUNT];

@@ -1,4 +1,6 @@
 /* The grid search, the pair sums and the order of particles against brute force over all pairs. */
+#include "tests/lists.h"
+
 #include "fixture.h"
 
 #include "sim/kernel/kernel.h"
@@ -197,8 +199,7 @@ static WorldDef collapsing_column(void)
     def.fluids[1] = (FluidDef){.name = "oil", .density = 800, .viscosity = 10};
     fixture_block(&def, 0, -1.5, 0, -0.4, -0.5, 0.6, 0.4);
     fixture_block(&def, 1, -1.5, 0.6, -0.4, -0.5, 1.2, 0.4);
-    def.motion_count = 1;
-    def.motions[0] = (Motion){.kind = MOTION_ROCK, .axis = {0, 0, 1}, .angle_deg = 10, .frequency = 1};
+    add_motion(&def, (Motion){.kind = MOTION_ROCK, .axis = {0, 0, 1}, .angle_deg = 10, .frequency = 1});
     return def;
 }
 
@@ -216,8 +217,8 @@ static void equal_bits_for_any_threads_and_simd(void **state)
         assert_int_equal(hash_after(&def, 2, "baseline"), one);
 }
 
-/* The bits of a run without libm in it, on every x86-64 with this compiler family. A change of the solver's
-   arithmetic changes it: look at the change, then write the new number here. */
+/* The bits of a run without libm, on every x86-64 with this compiler family. A change of the solver's
+   arithmetic changes the bits: check the change, then write the new number here. */
 static void golden_hash(void **state)
 {
     (void)state;

@@ -1,11 +1,13 @@
 /* Periodic sides: neighbours against all pairs with the nearest image, flow through a side, momentum, the
    vortices that fill such a box, what is refused. */
+#include "tests/lists.h"
+
 #include "fixture.h"
 
-#include "sim/box/walls.h"
+#include "sim/box/box.h"
 #include "sim/def/fluids.h"
 #include "sim/methods/wcsph/wcsph.h"
-#include "sim/start/seed.h"
+#include "sim/start/start.h"
 #include "slosh/state.h"
 
 /* Scattered particles in a box that is periodic along the axes given; the others have walls. */
@@ -318,7 +320,7 @@ static void momentum_is_conserved(void **state)
         world_sums(world, &after);
         for (int k = 0; k < 2; k++)
             assert_float_equal((after.momentum[k] - before.momentum[k]) / after.momentum_scale, 0, 2e-6);
-        assert_true(fabs(after.kinetic_energy / before.kinetic_energy - 1) > 0.01); /* something went on */
+        assert_true(fabs(after.kinetic_energy / before.kinetic_energy - 1) > 0.01); /* progress */
         world_destroy(world);
         cloud_free(&c);
     }
@@ -334,8 +336,7 @@ static void a_box_that_shakes_passes_the_fluid(void **state)
     memset(def.gravity, 0, sizeof def.gravity);
     def.periodic[0] = true;
     fixture_block(&def, 0, -0.5, 0, 0, 0.5, 0.8, 0);
-    def.motions[def.motion_count++] =
-        (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.7, .frequency = 1};
+    add_motion(&def, (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.7, .frequency = 1});
     def.fluids[0].velocity[0] = -0.7 * 2 * M_PI; /* at rest in the world */
     World *world = fixture_world(&def);
     State before = fixture_read(world);
@@ -427,9 +428,8 @@ static void a_jet_goes_through_a_side(void **state)
     memset(def.gravity, 0, sizeof def.gravity);
     def.periodic[0] = true;
     def.most = 400;
-    def.fluids[0].emit_count = 1;
-    def.fluids[0].emits[0] =
-        (Emit){.centre = {0.45, 0.4, 0}, .direction = {1, 0, 0}, .radius = 0.1, .speed = 2};
+    add_emit(&def.fluids[0],
+             (Emit){.centre = {0.45, 0.4, 0}, .direction = {1, 0, 0}, .radius = 0.1, .speed = 2});
     World *world = fixture_world(&def);
     fixture_step(world, 150); /* 0.3 s: 0.6 m */
     State s = fixture_read(world);
@@ -442,7 +442,7 @@ static void a_jet_goes_through_a_side(void **state)
     world_destroy(world);
 }
 
-/* What is near an emitter across a side takes its place as any other does. */
+/* A particle near an emitter across a periodic side blocks a place like any particle. */
 static void nothing_comes_where_something_is(void **state)
 {
     (void)state;
@@ -456,10 +456,9 @@ static void nothing_comes_where_something_is(void **state)
         def.most = 10;
         x[axis] = (float)(-0.48 * out + (near ? 0 : 0.2 * out));
         def.initial = &(InitialState){.count = 1, .position = x};
-        def.fluids[0].emit_count = 1;
-        def.fluids[0].emits[0] =
-            (Emit){.centre = {0, 0.4, 0}, .direction = {0, 1, 0}, .radius = 0.04, .speed = 1};
-        def.fluids[0].emits[0].centre[axis] = 0.49 * out;
+        add_emit(&def.fluids[0],
+                 (Emit){.centre = {0, 0.4, 0}, .direction = {0, 1, 0}, .radius = 0.04, .speed = 1})
+            ->centre[axis] = 0.49 * out;
         World *world = fixture_world(&def);
         fixture_step(world, 1);
         State s = fixture_read(world);
@@ -490,8 +489,8 @@ static void the_lattice_has_no_seam(void **state)
     world_destroy(world);
 }
 
-/* Steady where nothing rubs: rho (v . grad) v = -grad p, div v = 0, the same at both sides; the density at
-   the start holds that pressure. */
+/* Steady without friction: rho (v . grad) v = -grad p, div v = 0, the same at both sides; the start's
+   density matches the pressure. */
 static void vortices_hold_each_other(void **state)
 {
     (void)state;
@@ -566,7 +565,7 @@ static void what_cannot_be_is_refused(void **state)
     bad.periodic[2] = true;
     refused(&bad, "no sides in z");
     bad = def;
-    bad.motions[bad.motion_count++] = (Motion){.kind = MOTION_SPIN, .axis = {0, 1, 0}, .rate = 1};
+    add_motion(&bad, (Motion){.kind = MOTION_SPIN, .axis = {0, 1, 0}, .rate = 1});
     refused(&bad, "does not turn");
     bad = def;
     bad.solids[bad.solid_count++] = (SolidDef){.kind = SOLID_SPHERE, .centre = {0.4, 0.5, 0}, .radius = 0.2};

@@ -3,8 +3,8 @@
 #include "sim/methods/dfsph/dfsph.h"
 #include "sim/methods/mueller/mueller.h"
 
-/* A ball that flies and spins, pressed a little so that it works inside; no gravity, no viscosity, no walls
- * near. */
+/* A flying and spinning ball, slightly compressed so that pressure works inside; no gravity, no
+   viscosity, no walls near. */
 static void free_flight_keeps_momenta(void **state)
 {
     (void)state;
@@ -16,7 +16,7 @@ static void free_flight_keeps_momenta(void **state)
     memset(def.gravity, 0, sizeof def.gravity);
     def.spacing = 0.1;
     def.sound_speed = 10;
-    /* what has no sound would be moved apart at once, and its spin with it */
+    /* methods without sound would separate at once, and change the spin */
     const double pitch = fixture_incompressible(&def) ? 0.1 : 0.095;
     float *x = malloc(12 * (size_t)count), *v = malloc(12 * (size_t)count);
     uint8_t *fluid = malloc((size_t)count);
@@ -38,7 +38,7 @@ static void free_flight_keeps_momenta(void **state)
     world_sums(world, &before);
     fixture_step(world, fixture_count(1000, 200));
     world_sums(world, &after);
-    if (!fixture_incompressible(&def)) /* something happened */
+    if (!fixture_incompressible(&def)) /* a check that the run is not trivial */
         assert_true(fabs(after.kinetic_energy / before.kinetic_energy - 1) > 1e-3);
     for (int k = 0; k < 3; k++) {
         const double p = fabs(after.momentum[k] - before.momentum[k]) / before.momentum_scale;
@@ -75,7 +75,7 @@ typedef struct Column {
     int side, layers;
 } Column;
 
-/* The lattice, each layer pressed as the weight above it will press it: what is left to settle is small. */
+/* The lattice, with each layer compressed by the weight above: little settling remains. */
 static void pressed_column(Column column, float *x, double spacing, double sound_speed)
 {
     const int side = column.side;
@@ -166,9 +166,8 @@ static double speed_after_a_jolt(const char *density_kernel)
     return sqrt(2 * sums.kinetic_energy / sums.mass);
 }
 
-/* The walls among it: they push with the gradient of what they add to the density. The paper's pair of
-   kernels, poly6 for density and spiky for pressure, is no gradient of anything, and pumps energy in: the
-   failure is kept here. */
+/* Including walls: the force is the gradient of the walls' density. The paper's pair of kernels, poly6
+   for density and spiky for pressure, is no gradient, and pumps energy in: the failure is kept here. */
 static void energy_is_conserved_with_one_kernel(void **state)
 {
     (void)state;
@@ -211,7 +210,7 @@ static void light_stays_over_heavy(void **state)
     world_destroy(world);
 }
 
-/* An impossible step is noticed and said: one that is far too large, and one that ends in NaN. */
+/* An impossible step is detected and reported: far too large, and ending in NaN. */
 static void blow_up_is_reported(void **state)
 {
     (void)state;
@@ -253,6 +252,7 @@ static void bad_defs_are_refused(void **state)
     bad[10].def.box_size[1] = bad[10].def.box_size[0] = bad[10].def.box_size[2] = 1e6;
     bad[11].def.fluids[0].density = -1;
     bad[0].def.motion_count = 1;
+    bad[0].def.motions = &(Motion){.kind = MOTION_SHAKE}; /* no axis */
     bad[1].def.gravity[2] = NAN;
     const float at[2][3] = {{0, 0.5f, 0}, {0, NAN, 0}};
     bad[2].def.initial = &(InitialState){.count = 1, .position = at[0], .fluid = &(uint8_t){7}};

@@ -1,5 +1,7 @@
 /* Two dimensions: sums of the plane against brute force, walls, a column at rest, nothing out of the plane.
  */
+#include "tests/lists.h"
+
 #include "fixture.h"
 
 #include "sim/kernel/kernel.h"
@@ -19,7 +21,7 @@ static WorldDef plane_def(const char *method, double width, double height)
     return def;
 }
 
-/* A lattice that fills its box has its rest density everywhere: inside, at faces, in corners. */
+/* A lattice filling the box has rest density everywhere: inside, at faces, in corners. */
 static void full_box_has_rest_density(void **state)
 {
     (void)state;
@@ -75,7 +77,8 @@ static void sums_equal_brute_force(void **state)
     for (int i = 0; i < COUNT; i++) {
         n[i] = 0;
         for (int j = 0; j < COUNT; j++)
-            n[i] += lattice.density_scale * kernel_spiky(hypot(at[i][0] - at[j][0], at[i][1] - at[j][1]), h);
+            n[i] += lattice.density_scale *
+                    density_kernel_find("spiky")->value(hypot(at[i][0] - at[j][0], at[i][1] - at[j][1]), h);
         const double stiffness = c * c * lattice.stiffness_scale * 1000;
         const double p = fmax(stiffness * (n[i] / lattice.number_density - 1), 0);
         term[i] = p / (n[i] * n[i]);
@@ -157,7 +160,7 @@ static void column_at_rest(void **state)
     }
 }
 
-/* A blob that spins and pulsates keeps its momenta; wcsph its energy too. */
+/* A spinning and pulsating blob keeps momenta; with wcsph energy too. */
 static void momenta_are_kept(void **state)
 {
     (void)state;
@@ -166,8 +169,7 @@ static void momenta_are_kept(void **state)
         memset(def.gravity, 0, sizeof def.gravity);
         wcsph_def(&def)->artificial_viscosity = 0;
         def.dt = 5e-4;
-        def.fluids[0].fills[0] = (Fill){.kind = FILL_BALL, .centre = {0, 10, 0}, .radius = 0.8};
-        def.fluids[0].fill_count = 1;
+        add_fill(&def.fluids[0], (Fill){.kind = FILL_BALL, .centre = {0, 10, 0}, .radius = 0.8});
         World *seeded = fixture_world(&def);
         State s = fixture_read(seeded);
         float *x = malloc(3 * s.count * sizeof *x), *v = malloc(3 * s.count * sizeof *v);
@@ -207,8 +209,8 @@ static void in_the_plane(const State *s)
                      s->velocity[4 * i + 2]);
 }
 
-/* Particles in pairs at one place: their direction is made up, and is one of the plane. They part but with
-   wcsph, whose pressure ends at r = 0. */
+/* Pairs of coincident particles: the direction is arbitrary, within the plane. The pairs separate, except
+   with wcsph, with zero pressure force at r = 0. */
 static void coinciding_pairs_stay_in_the_plane(void **state)
 {
     (void)state;
@@ -238,8 +240,7 @@ static void coinciding_pairs_stay_in_the_plane(void **state)
     }
 }
 
-/* The last guard puts what leaves the box across both walls of a corner into that corner, one upon the other.
- */
+/* The last guard puts particles beyond both walls of a corner into the corner, on the same spot. */
 static void what_hits_a_corner_stays_in_the_plane(void **state)
 {
     (void)state;
@@ -267,9 +268,8 @@ static WorldDef rocked(const char *method, int threads)
     WorldDef def = plane_def(method, 1.5, 1);
     *world_threads(&def) = threads;
     fixture_block(&def, 0, -0.75, 0, 0, 0.2, 0.6, 0);
-    def.motions[0] = (Motion){.kind = MOTION_SHAKE, .axis = {1, 0.2, 0}, .amplitude = 0.05, .frequency = 1};
-    def.motions[1] = (Motion){.kind = MOTION_ROCK, .axis = {0, 0, 1}, .angle_deg = 10, .frequency = 0.7};
-    def.motion_count = 2;
+    add_motion(&def, (Motion){.kind = MOTION_SHAKE, .axis = {1, 0.2, 0}, .amplitude = 0.05, .frequency = 1});
+    add_motion(&def, (Motion){.kind = MOTION_ROCK, .axis = {0, 0, 1}, .angle_deg = 10, .frequency = 0.7});
     return def;
 }
 
@@ -327,10 +327,10 @@ static void what_leaves_the_plane_is_refused(void **state)
     bad.gravity[2] = 1;
     refuse(&bad, "gravity leaves the plane");
     bad = good;
-    bad.motions[0].axis[2] = 0.1;
+    own_motions(&bad)[0].axis[2] = 0.1;
     refuse(&bad, "motion 0: leaves the plane");
     bad = good;
-    bad.motions[1].axis[0] = 0.1;
+    own_motions(&bad)[1].axis[0] = 0.1;
     refuse(&bad, "motion 1: leaves the plane");
     bad = good;
     bad.dimensions = 4;

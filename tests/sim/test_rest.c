@@ -1,8 +1,9 @@
-/* What comes to rest rests: friction of the resolution where a fluid names less; density that comes back to
-   that of the particles' places; none below 0. */
+/* Fluid comes to rest: friction of the resolution for fluids with less; density returning to the density
+   of positions; none below 0. */
+#include "sim/methods/dfsph/dfsph.h"
 #include "sim/methods/mueller/mueller.h"
 #include "sim/methods/wcsph/wcsph_private.h"
-#include "sim/step/step_control.h"
+#include "sim/step/constants.h"
 #include "tests/sim/fixture.h"
 
 /* A dam of 13 x 15 particles in the plane. */
@@ -13,7 +14,7 @@ static WorldDef dam(const char *method, double alpha)
     def.spacing = 0.04;
     def.support = 3;
     snprintf(def.method, sizeof def.method, "%s", method);
-    mueller_def(&def)->numerical_viscosity = alpha;
+    mueller_def(&def)->numerical_viscosity = dfsph_def(&def)->rest_viscosity = alpha;
     def.dt = 0.001;
     def.substeps = 1;
     fixture_block(&def, 0, -0.5, 0, 0, 0, 0.6, 0);
@@ -37,12 +38,11 @@ static double rms_speed(World *world)
 }
 
 /* alpha is a least viscosity: no more, and no less. */
-static void a_fluid_that_names_less_has_that_of_alpha(void **state)
+static void check_alpha(const char *method, double speed)
 {
-    (void)state;
-    WorldDef def = dam("mueller", 0.03), own = dam("mueller", 0);
+    WorldDef def = dam(method, 0.03), own = dam(method, 0);
     def.reproducible = own.reproducible = true;
-    const double least = 0.03 * def.sound_speed * def.support * def.spacing / 16 * def.fluids[0].density;
+    const double least = 0.03 * speed * def.support * def.spacing / 16 * def.fluids[0].density;
     own.fluids[0].viscosity = least;
     const uint64_t expected = hash_after(&own, 60);
     assert_true(hash_after(&def, 60) == expected);
@@ -51,11 +51,20 @@ static void a_fluid_that_names_less_has_that_of_alpha(void **state)
     def.fluids[0].viscosity = own.fluids[0].viscosity = 2 * least;
     assert_true(hash_after(&def, 60) == hash_after(&own, 60));
     def.fluids[0].viscosity = 0;
-    mueller_def(&def)->numerical_viscosity = 0;
+    mueller_def(&def)->numerical_viscosity = dfsph_def(&def)->rest_viscosity = 0;
     assert_true(hash_after(&def, 60) != expected);
 }
 
-/* Walls hold by the viscosity that a fluid names: without one, they let it glide. */
+static void a_fluid_that_names_less_has_that_of_alpha(void **state)
+{
+    (void)state;
+    const WorldDef def = dam("mueller", 0);
+    check_alpha("mueller", def.sound_speed);
+    if (!fixture_on_fragment())
+        check_alpha("dfsph", sqrt(sqrt(9.81 * 9.81) * def.support * def.spacing));
+}
+
+/* Walls hold by a fluid's named viscosity: without viscosity, fluid glides. */
 static void walls_hold_no_fluid_that_names_none(void **state)
 {
     (void)state;
@@ -105,7 +114,7 @@ static void a_column_of_pbf_rests(void **state)
     assert_true(column_speed(&def, 1 / 60.0, 1800) < 0.015);
 }
 
-/* Water's viscosity leaves wcsph nearly all of its artificial one; what that stands for leaves nothing. */
+/* Water's viscosity leaves wcsph nearly all artificial viscosity; the equivalent viscosity leaves none. */
 static void artificial_viscosity_fills_up(void **state)
 {
     (void)state;
@@ -165,7 +174,7 @@ static void density_stays_above_zero_and_comes_back(void **state)
     (void)state;
     static const float starts[] = {0.02F, 0, -0.1F, -0.5F, -0.51F, -0.8F, -0.999F};
     for (size_t k = 0; k < sizeof starts / sizeof *starts; k++) {
-        assert_true(wcsph_density_after(starts[k], 0) == starts[k]); /* what is loaded is what was saved */
+        assert_true(wcsph_density_after(starts[k], 0) == starts[k]); /* loaded equals saved */
         float e = starts[k];
         for (int i = 0; i < 400; i++) {
             const float before = e;

@@ -1,7 +1,8 @@
-/* A scene and the same scene at another scale move the same. Lengths times 4^k and times times 2^k leave
-   gravity as it is; with all else scaled to match, each number of a step is the same but for a power of two,
-   which rounding does not see: the motion has the same bits on the CPU. What leaves the range of floats
-   somewhere, or is compared with a length, a speed or a mass of this world, shows. */
+/* A scene and a scaled scene move the same. Lengths times 4^k and times times 2^k leave gravity
+   unchanged. With all else scaled to match, each number of a step is the same up to a power of two,
+   without rounding: the motion has the same bits on the CPU. Overflow of floats, or comparison with a
+   fixed length, speed or mass, shows as a difference. */
+#include "tests/lists.h"
 #include "tests/sim/fixture.h"
 
 #include "sim/def/fluids.h"
@@ -40,6 +41,7 @@ typedef struct Case {
 static const Case cases[] = {
     {"plain", "mueller", .cfl = false},
     {"poly6", "mueller", .kernel = "poly6", .viscosity = 1},
+    {"quintic, two, solid", "mueller", .kernel = "quintic", .viscosity = 1, .two = true, .solid = true},
     {"pulls", "mueller", .viscosity = 1, .negative = true},
     {"colour field, two", "mueller", .tension = TENSION_COLOUR_FIELD, .viscosity = 1, .two = true},
     {"cohesion", "mueller", .tension = TENSION_COHESION, .viscosity = 0.1},
@@ -104,10 +106,11 @@ static void motions_of(const Case *c, const Units *u, WorldDef *def)
 {
     if (!c->moves)
         return;
-    def->motions[def->motion_count++] = (Motion){
-        .kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.4 * u->length, .frequency = 0.5 / u->time};
-    def->motions[def->motion_count++] =
-        (Motion){.kind = MOTION_SPIN, .axis = {0, 0, 1}, .rate = 0.5 / u->time};
+    add_motion(def, (Motion){.kind = MOTION_SHAKE,
+                             .axis = {1, 0, 0},
+                             .amplitude = 0.4 * u->length,
+                             .frequency = 0.5 / u->time});
+    add_motion(def, (Motion){.kind = MOTION_SPIN, .axis = {0, 0, 1}, .rate = 0.5 / u->time});
 }
 
 static void flow_of(const Case *c, const Units *u, WorldDef *def)
@@ -115,10 +118,10 @@ static void flow_of(const Case *c, const Units *u, WorldDef *def)
     FluidDef *fluid = &def->fluids[0];
     if (!c->emits)
         return;
-    fluid->emits[fluid->emit_count++] = (Emit){.centre = {0, 6.5 * u->length, 0},
-                                               .direction = {0, -1, 0},
-                                               .radius = 1.2 * u->length,
-                                               .speed = 4 * u->speed};
+    add_emit(fluid, (Emit){.centre = {0, 6.5 * u->length, 0},
+                           .direction = {0, -1, 0},
+                           .radius = 1.2 * u->length,
+                           .speed = 4 * u->speed});
     def->most = 1000;
 }
 
@@ -161,7 +164,7 @@ static WorldDef def_of(const Case *c, Form form, int exponent)
     return def;
 }
 
-/* What is known of it after some steps, in the units of its scale. */
+/* Results after some steps, in scaled units. */
 typedef struct Seen {
     State state;
     WorldSums sums;

@@ -1,6 +1,5 @@
-/* Shifting of particles (sim/methods/wcsph/wcsph_passes.c): the shift itself against all pairs, what walls,
-   surfaces and the density that particles carry make of it. backend compute is compared with cpu in tests/gl.
- */
+/* Shifting of particles (sim/methods/wcsph/wcsph_passes.c): the shift against all pairs, and the effect
+   of walls, surfaces and carried density. backend compute is compared with cpu in tests/gl. */
 #include "fixture.h"
 
 #include "sim/kernel/kernel.h"
@@ -157,7 +156,7 @@ static void surfaces_are_spared(void **state)
     fixture_free(&states[1]);
 }
 
-/* Particles in their lattice that carry 1 % too much: it dies out as exp(-t c / (20 h)). */
+/* A lattice with 1 % too much carried density: the error decays as exp(-t c / (20 h)). */
 static void density_returns_to_that_of_the_places(void **state)
 {
     (void)state;

@@ -1,11 +1,12 @@
 /* The adaptive step's limits against numbers by hand; and the sentinel: back, half the step, on, or an end
    with the last good state. */
+#include "tests/lists.h"
+
 #include "fixture.h"
 
 #include "sim/def/fluids.h"
 #include "sim/methods/wcsph/wcsph.h"
 #include "sim/step/constants.h"
-#include "sim/step/step_control.h"
 #include "slosh/state.h"
 
 static Error error;
@@ -37,7 +38,7 @@ static void each_limit_binds(void **state)
     def.max_dt = 1;
     def.fluids[0].viscosity = 0;
     assert_true(fabs(step_cfl(&def, &friction, 0, 0, 0, &limit) - 0.1 * 0.3 * 0.21 / 20) <
-                1e-12); /* the first one */
+                1e-12); /* the first */
     assert_int_equal(limit, STEP_LIMIT_GROWTH);
     strcpy(def.method, "dfsph");
     fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 0.5, 0.5);
@@ -102,7 +103,7 @@ static void friction_of_several_fluids(void **state)
     def.fluids[0].viscosity_table.value[0] = 11;
     assert_true(isinf(step_viscous(&def, &friction))); /* none of alpha is left */
     def.fluid_count = 2;
-    friction = (StepFriction){.laminar = 100, .numerical = 1}; /* 1.05 m2/s in both */
+    friction = (StepFriction){.laminar = 100, .numerical = 1.05};
     def.fluids[1].viscosity = 0;
     assert_true(fabs(step_viscous(&def, &friction) - 2 / (100 * 2 * 10.5 * 1050 / 1060.5 / 10)) < 1e-12);
 }
@@ -114,8 +115,8 @@ static WorldInfo info_of(const World *world)
     return info;
 }
 
-/* A tank of heavy fluid below a light one, 1 : 1000, in the step of one fluid: by the sum of p V^2 of both it
-   reached 180 m/s. */
+/* A tank of heavy fluid below a light fluid, 1 : 1000, with the step of a single fluid: by the sum of p
+   V^2 of both the speed reached 180 m/s. */
 static void light_fluid_rests_upon_heavy(void **state)
 {
     (void)state;
@@ -216,7 +217,8 @@ static size_t stirred_start(const Stirred *s, float *position, float *velocity, 
     return count;
 }
 
-/* Kinetic energy after steps with `share` of the longest one that friction stands, over that before. */
+/* Kinetic energy after steps with `share` of the longest stable step of friction, over the energy before.
+ */
 static double energy_left(const Stirred *s, double share)
 {
     static float position[3 * STIRRED_MOST], velocity[3 * STIRRED_MOST];
@@ -377,8 +379,7 @@ static void it_gives_up_with_the_last_good_state(void **state)
     def.retries = 2;
     def.dt = 100;
     def.substeps = 2;
-    def.motion_count = 1;
-    def.motions[0] = (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.1, .frequency = 0.013};
+    add_motion(&def, (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.1, .frequency = 0.013});
     World *world = fixture_world(&def);
     fixture_step(world, 0);
     const uint64_t hash = world_hash(world);
@@ -394,7 +395,7 @@ static void it_gives_up_with_the_last_good_state(void **state)
     world_destroy(world);
 }
 
-/* What binds is named: sound, friction, a flow too fast for it, or nothing that is known. */
+/* The binding limit is named: sound, friction, too fast flow, or unknown. */
 static void the_advice_names_what_binds(void **state)
 {
     (void)state;
@@ -455,7 +456,7 @@ static void calm_brings_the_step_back(void **state)
     world_destroy(world);
 }
 
-/* What was said after the state that it goes back to stays said; saved within trouble it goes on the same. */
+/* Reports after the restored state stay; saved within trouble, the run continues the same. */
 static void a_session_with_trouble_comes_out_the_same(void **state)
 {
     (void)state;
@@ -509,8 +510,8 @@ static void what_is_lost_is_trouble_above_the_limit(void **state)
     assert_int_equal(step_trouble_of(&watch, false), STEP_TROUBLE_MEMORY);
 }
 
-/* States fall on the times asked for, by steps of at least 3/4 of what the limits allow, and a run that stops
-   nowhere has the bits that it had. */
+/* States fall on requested times, by steps of at least 3/4 of the limits, and a run without stops keeps
+   the bits. */
 static void steps_end_where_they_are_asked_to(void **state)
 {
     (void)state;
@@ -526,7 +527,7 @@ static void steps_end_where_they_are_asked_to(void **state)
         do {
             fixture_step(world, 1);
             world_info(world, &info);
-            if (before > 0.1) /* grown to its limit */
+            if (before > 0.1) /* grown to the limit */
                 assert_true(info.time - before > 0.7 * longest);
             longest = fmax(longest, info.time - before);
             before = info.time;

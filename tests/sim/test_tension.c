@@ -1,5 +1,5 @@
-/* Surface tension: both models against brute force; what cohesion keeps; a square that becomes round, and the
-   pressure in a drop. */
+/* Surface tension: both models against brute force; invariants of cohesion; a square becoming round, and
+   the pressure in a drop. */
 #include "fixture.h"
 
 #include "sim/def/fluids.h"
@@ -21,7 +21,7 @@ static WorldDef tense_def(int dimensions, TensionModel model)
     return def;
 }
 
-/* The force of tension alone: that of a run with it, less that of one without. */
+/* The force of tension alone: with tension minus without. */
 static void accelerations(WorldDef def, double a[COUNT][3], double volume[COUNT])
 {
     def.initial = &(InitialState){COUNT, cloud, NULL, fluids, NULL, NULL, 0};
@@ -29,7 +29,7 @@ static void accelerations(WorldDef def, double a[COUNT][3], double volume[COUNT]
         if (!with)
             def.tension_model = TENSION_NONE;
         else
-            def.tension_model = def.fluids[1].fill_count; /* kept there by the caller */
+            def.tension_model = def.most; /* kept there by the caller */
         World *world = fixture_world(&def);
         fixture_step(world, 1);
         State s = fixture_read(world);
@@ -85,7 +85,7 @@ static void models_equal_brute_force(void **state)
             def.dt = 1e-5;
             def.fluid_count = 2;
             def.fluids[1] = (FluidDef){.name = "oil", .density = 700, .surface_tension = 20};
-            def.fluids[1].fill_count = model;
+            def.most = (int)model;
             uint32_t seed = 9;
             for (int i = 0; i < COUNT; i++) {
                 for (int k = 0; k < 3; k++)
@@ -151,7 +151,7 @@ static void cohesion_makes_round(void **state)
             printf("%s, %dD: out of round by %.0f %%, then %.0f %%\n", fixture_method_names[m], dimensions,
                    100 * at_rest, 100 * later);
             assert_true(at_rest > 0.12);
-            if (m != 1 || dimensions == 2) /* wcsph in 3D keeps its lattice: docs/methods.md */
+            if (m != 1 || dimensions == 2) /* wcsph in 3D keeps its lattice: docs/labbook/methods.md */
                 assert_true(fabs(later) < 0.6 * at_rest);
             for (int k = 0; k < 3; k++)
                 assert_true(fabs(sums.momentum[k]) < 1e-5 * sums.mass);
@@ -159,7 +159,7 @@ static void cohesion_makes_round(void **state)
         }
 }
 
-/* The force between two halves of the lattice, over the way that it takes to part them: twice the tension. */
+/* The force between two halves of the lattice, integrated until separation: twice the tension. */
 static void parting_takes_twice_the_tension(void **state)
 {
     (void)state;
@@ -226,8 +226,8 @@ static void mean_velocity(const State *s, size_t first, size_t end, double v[2])
     }
 }
 
-/* Of two drops apart the free one stays where it is, and the one on a floor does not walk; the floor may
- * push. */
+/* Of two separate drops the free drop stays in place, and the drop on a floor does not walk; the floor
+   may push. */
 static void curvature_moves_no_drop(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The forms of wcsph's laminar viscosity: on lattices against what they stand for, on free bodies against the
-   work that a fluid does. */
+/* The forms of wcsph's laminar viscosity: on lattices against the continuum, on free bodies against the
+   work of a fluid. */
 #include "fixture.h"
 
 #include "sim/def/fluids.h"
@@ -104,8 +104,9 @@ static double power(ViscosityForm form, double a, double b)
     return (before.kinetic_energy - after.kinetic_energy) / def.dt;
 }
 
-/* 2 mu D : D = 4 mu a^2 over the square's area, less the pairs that its surface has not: at a distance y from
-   it these are a share that falls from a half to nothing within h, some 2 h / 5 of a side's length in all. */
+/* 2 mu D : D = 4 mu a^2 over the square's area, less the pairs missing at the surface. At a distance y
+   from the surface a share is missing that falls from a half to zero within h: some 2 h / 5 of a side's
+   length in all. */
 static void a_stretch_costs_what_the_fluid_does(void **state)
 {
     (void)state;

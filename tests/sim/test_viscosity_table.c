@@ -1,7 +1,7 @@
 /* A viscosity that is a table over time: how flows decay, how long steps may be, what a state needs. */
 #include "fixture.h"
 
-#include "sim/step/step_control.h"
+#include "sim/step/constants.h"
 #include "slosh/state.h"
 
 static Error error;
@@ -67,8 +67,8 @@ static double decay(const WorldDef *def)
     return -log(left);
 }
 
-/* By 2 nu (pi / a)^2 t, which depends on the integral of the viscosity over time alone; a sixth less here,
-   since free-slip walls have nothing behind them that drags. */
+/* By 2 nu (pi / a)^2 t, which depends only on the time integral of the viscosity; a sixth less here,
+   without drag behind free-slip walls. */
 static void flows_decay_by_the_integral(void **state)
 {
     (void)state;
@@ -147,7 +147,8 @@ static WorldDef thinning_def(StepMode mode)
     return def;
 }
 
-/* Save, load, step is step; whatever the other world's viscosity was, it is that of the state's time. */
+/* Save, load, step equals step; for any viscosity of the target world, the viscosity is of the state's
+   time. */
 static void a_state_has_its_viscosity(void **state)
 {
     (void)state;
@@ -178,7 +179,8 @@ static void a_state_has_its_viscosity(void **state)
     }
 }
 
-/* One row is a number; and a world that gets the table is one that was made with it. */
+/* A table with a single row is a number; a world given the table later equals a world made with the
+   table. */
 static void a_table_may_come_and_go(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* No-slip walls: tables against sums, shears that they leave alone, steps that they do not shorten, Stokes'
-   oscillating floor. */
+/* No-slip walls: tables against sums, unaffected shears, unaffected steps, Stokes' oscillating floor. */
+#include "tests/lists.h"
+
 #include "fixture.h"
 
 #include "sim/methods/dfsph/dfsph.h"
@@ -24,7 +25,7 @@ static const Tried methods[] = {
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
-/* All on the CPU; on a GPU, which has their tables, one in space and both in the plane. */
+/* All on the CPU; on a GPU, with the same tables, a single case in space and both in the plane. */
 static bool taken(int m)
 {
     return fixture_on_cpu() || m == 0 || m == 1 || m == 3 || m == 6;
@@ -44,6 +45,19 @@ static WorldDef no_slip_box(const Tried *method, double side, double full)
     def.fluids[0].viscosity = 1000;
     fixture_block(&def, 0, -side / 2, 0, -side / 2, side / 2, full, side / 2);
     return def;
+}
+
+/* w(r) of the forms of friction, as sim/box/box.h names the forms. */
+static double weight_of(const Lattice *lattice, DragWeight weight, double r, double normal,
+                        double support_radius)
+{
+    if (weight == DRAG_LAPLACIAN)
+        return lattice->laplacian_scale * kernel_viscosity_laplacian(r, support_radius);
+    const double morris =
+        -2 * lattice->gradient_scale * lattice->pressure_kernel->derivative(r, support_radius) / r;
+    if (weight == DRAG_MORRIS)
+        return morris;
+    return morris * lattice->radial_scale * (r * r - normal * normal) / (lattice->dimensions - 1);
 }
 
 /* D by adding up all lattice particles behind some face at once, with the greatest factor. */
@@ -68,15 +82,14 @@ static double drag_brute(const Constants *s, DragWeight weight, int faces, const
             }
         }
         if (r2 < h * h && factor > 0)
-            sum += factor * wall_drag_weight(&s->lattice, weight, sqrt(r2), normal, h);
+            sum += factor * weight_of(&s->lattice, weight, sqrt(r2), normal, h);
     }
     return s->unit_volume * sum;
 }
 
-/* In front of faces, edges and corners, low and high ones: what the particle's own lattice gives within 0.2 %
-   at a face, and within 5 % at edges and corners, whose nodes are further apart (radial: 8 %, its weights
-   jump where the other face becomes the nearer one); the mean over the lattice's places along the walls
-   within 6 %. */
+/* In front of faces, edges and corners, low and high: the sum over the particle's own lattice within 0.2
+   % at a face. Within 5 % at edges and corners, with coarser nodes (radial: 8 %, with a jump of weights
+   where the nearer face changes). The mean over the lattice's places along the walls within 6 %. */
 static void tables_equal_sums(void **state)
 {
     (void)state;
@@ -183,8 +196,8 @@ static void a_linear_shear_is_free_of_force(void **state)
     }
 }
 
-/* Mirrored velocities go on in a straight line: what is curved is found by the layers that see little of the
-   wall; the first one finds 0.67 to 0.73 of it, the second 0.93 to 0.99. */
+/* Mirrored velocities continue in a straight line. Curvature shows in the layers with a small view of the
+   wall: the first layer finds 0.67 to 0.73 of the drag, the second 0.93 to 0.99. */
 static void a_parabola_is_slowed_by_its_curvature(void **state)
 {
     (void)state;
@@ -208,8 +221,8 @@ static double speed_of(World *world)
     return sqrt(2 * sums.kinetic_energy / sums.mass);
 }
 
-/* A particle on a face, an edge, in a corner, that slides along them: never faster than before, at steps far
-   beyond the limit. With hardly a pressure, which would push it off the walls. */
+/* A particle on a face, an edge, in a corner, sliding along: never faster than before, at steps far
+   beyond the limit. With little pressure, which would push off the walls. */
 static void drag_never_overshoots(void **state)
 {
     (void)state;
@@ -236,8 +249,8 @@ static void drag_never_overshoots(void **state)
         }
 }
 
-/* Steps as long as the viscous limit of mode cfl at its default number, in a full box of fluid whose
-   particles all move at random, where walls slip and where they don't. */
+/* Steps as long as the viscous limit of mode cfl at the default number, in a full box of fluid in random
+   motion, with slip and no-slip walls. */
 static void the_viscous_limit_holds(void **state)
 {
     (void)state;
@@ -269,7 +282,7 @@ static void the_viscous_limit_holds(void **state)
         WorldInfo info;
         world_info(world, &info);
         assert_int_equal(info.limit, STEP_LIMIT_VISCOUS);
-        /* what slips keeps its momentum */
+        /* slip walls keep momentum */
         if (!(speed_of(world) < (def.wall_slip == SLIP_NONE ? 0.02 : 0.2) * before))
             fail_msg("%s %dD: from %g m/s to %g m/s", def.method, def.dimensions, before, speed_of(world));
         fixture_free(&s);
@@ -326,8 +339,7 @@ static double stokes_difference(World *world, const Stokes *stokes, double spaci
     return worst;
 }
 
-/* Without gravity, between walls that it does not touch, and without the start: nothing but the floor moves
- * it. */
+/* Without gravity, without wall contact, and without the start: only the floor moves the fluid. */
 static double stokes_error(const char *method, int slip)
 {
     static float x[3 * STOKES_COLUMNS * STOKES_LAYERS], v[3 * STOKES_COLUMNS * STOKES_LAYERS];
@@ -343,9 +355,8 @@ static double stokes_error(const char *method, int slip)
     def.dt = 1.0 / 300;
     def.wall_slip = slip;
     def.fluids[0].viscosity = 1000 * stokes.delta * stokes.delta * stokes.omega / 2;
-    def.motion_count = 1;
-    def.motions[0] =
-        (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = amplitude, .frequency = 1};
+    add_motion(&def,
+               (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = amplitude, .frequency = 1});
     def.initial = &(InitialState){.count = STOKES_COLUMNS * STOKES_LAYERS, .position = x, .velocity = v};
     stokes_begin(&stokes, spacing, x, v);
     World *world = fixture_world(&def);
@@ -371,7 +382,7 @@ static void a_floor_drags_fluid_along(void **state)
     }
 }
 
-/* Only what needs them has the tables. */
+/* Only if needed are tables made. */
 static void slip_and_inviscid_fluid_have_no_tables(void **state)
 {
     (void)state;
@@ -392,8 +403,7 @@ static void slip_and_inviscid_fluid_have_no_tables(void **state)
     constants_destroy(&constants);
 }
 
-/* A fluid that becomes viscous is held as one that has been so from the start, and let go when it no longer
- * is. */
+/* A fluid becoming viscous is held like an always viscous fluid, and released afterwards. */
 static void viscosity_may_come_and_go(void **state)
 {
     (void)state;

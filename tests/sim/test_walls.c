@@ -2,7 +2,7 @@
  * no escape. */
 #include "fixture.h"
 
-#include "sim/box/walls.h"
+#include "sim/box/box.h"
 
 static WorldDef full_box(double nx, double ny, double nz, double support)
 {
@@ -92,7 +92,7 @@ static void strew(const WorldDef *def, Strewn *s)
             s->x[i][k] = (float)((fixture_random(&seed) - (k == 1 ? 0 : 0.5)) * def->box_size[k]);
 }
 
-/* n / n0 of particle i by brute force: of all that it and its images see. */
+/* n / n0 of particle i by brute force: over all particles and images. */
 static double crowd(const Strewn *s, int i)
 {
     WallImage image[IMAGES_MAX];
@@ -104,7 +104,7 @@ static double crowd(const Strewn *s, int i)
             const double d[3] = {(double)x[0] - (double)y[0], (double)x[1] - (double)y[1],
                                  (double)x[2] - (double)y[2]};
             const double r = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-            sum += r < (double)s->h ? kernel_spiky(r, (double)s->h) : 0;
+            sum += r < (double)s->h ? density_kernel_find("spiky")->value(r, (double)s->h) : 0;
         }
     return sum * s->lattice.density_scale / s->lattice.number_density;
 }
@@ -140,8 +140,8 @@ static bool off_walls(const Strewn *s, const float x[3])
     return !walls_near(&far, x);
 }
 
-/* Density is that of all images, and the accelerations are the slope of the energy: at faces, edges and
-   corners, for whom stands there and for others. */
+/* Density includes all images, and accelerations are the energy's slope: at faces, edges and corners, and
+   elsewhere. */
 static void walls_push_by_their_energy(void **state)
 {
     (void)state;
@@ -183,6 +183,23 @@ static void walls_push_by_their_energy(void **state)
     }
 }
 
+/* Lift of a wall at distance d, m: the push of all lattice particles behind the wall. */
+static double lift_brute(const Lattice *lattice, double spacing, double support_radius, double d)
+{
+    const double h = support_radius;
+    const int reach = (int)ceil(h / spacing), across = lattice->dimensions == 3 ? reach : 0;
+    double sum = 0;
+    for (int n = 0; n <= reach; n++)
+        for (int i = -reach; i <= reach; i++)
+            for (int j = -across; j <= across; j++) {
+                const double y = (n + 0.5) * spacing, x = d + y;
+                const double r = sqrt(x * x + (i * i + j * j) * spacing * spacing);
+                if (r < h)
+                    sum -= lattice->pressure_kernel->derivative(r, h) / r * x * 2 * y;
+            }
+    return lattice->gradient_scale * sum / lattice->number_density;
+}
+
 /* What walls hold of a layer's weight, in closed form against the lattice behind them. */
 static void walls_hold_what_their_lattice_does(void **state)
 {
@@ -197,7 +214,7 @@ static void walls_hold_what_their_lattice_does(void **state)
         walls_place(&walls, lattice.dimensions, (double[]){2, 2, 2}, (bool[]){true, false, false}, 0.1);
         const WallLift lift = wall_lift_of(&lattice, 0.1, h);
         for (int layer = 0; layer < 4; layer++) {
-            const double d = 0.1 * (layer + 0.5), is = wall_lift_brute(&lattice, 0.1, h, d);
+            const double d = 0.1 * (layer + 0.5), is = lift_brute(&lattice, 0.1, h, d);
             float low[3], high[3];
             walls_lift(&lift, &walls, (float[]){-1, (float)d, 0}, low);
             walls_lift(&lift, &walls, (float[]){-1, (float)(2 - d), 0}, high);
@@ -209,7 +226,7 @@ static void walls_hold_what_their_lattice_does(void **state)
     }
 }
 
-/* A column of `layers`, and besides a particle in each corner of its floor: it finds its way out. */
+/* A column of `layers`, with an extra particle in each corner of the floor, which escapes. */
 static void leave_corners(int dimensions, double support, int side, int layers, int steps)
 {
     static float x[3 * 200];
@@ -251,7 +268,7 @@ static void what_is_in_a_corner_comes_out(void **state)
     leave_corners(2, 3, 6, 10, 600);
 }
 
-/* What is past a wall is put on it and loses what leads further out; what leads back in stays. */
+/* A particle past a wall is put on the wall and loses outward velocity; inward velocity stays. */
 static void the_last_guard_stops_what_goes_out(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* wcsph: its sums against brute force over all pairs, what it conserves, a column at rest, a density ratio of
-   ten, and bits. */
+/* wcsph: sums against brute force over all pairs, conservation, a column at rest, a density ratio of ten,
+   and bits. */
 #include "fixture.h"
 
 #include "sim/def/fluids.h"
@@ -122,7 +122,7 @@ static double image_of(const WorldDef *def, const Reference *r, int walls, int i
     return d < r->h ? -r->gradient * r->kernel->derivative(wide, r->h) / d : 0;
 }
 
-/* Whether i is within h of those walls: else it is from all images behind them, since nothing is outside. */
+/* True if i is within h of the walls: the image sum then lacks particles outside. */
 static bool near_walls(const WorldDef *def, const Reference *r, int walls, int i)
 {
     for (int k = 0, rest = walls; k < 3; k++, rest /= 3) {
@@ -337,7 +337,7 @@ static void step_equals_brute_force(const char *kernel, ViscosityForm form, doub
             fail_msg("%s: pressure of %d is %g", kernel, i, s.pressure[i]);
         change = fmax(change, fabs(density / rho0 - 1));
     }
-    assert_true(change > 1e-3); /* something happened */
+    assert_true(change > 1e-3); /* a check that the run is not trivial */
     fixture_free(&s);
     world_destroy(world);
 }
@@ -427,7 +427,7 @@ typedef struct Column {
     int side, layers;
 } Column;
 
-/* At rest but for what the particles' order does: each layer as dense as the weight above it makes it. */
+/* At rest except for lattice effects: each layer has the density of the weight above. */
 static void hydrostatic_column(const WorldDef *def, Column column, float *x, float *density)
 {
     const int side = column.side;

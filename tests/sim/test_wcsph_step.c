@@ -1,5 +1,4 @@
-/* wcsph in time: the order of its step, slow flows, diffusion, what viscosity keeps, changes while it lives.
- */
+/* wcsph in time: order of the step, slow flows, diffusion, effects of viscosity, live changes. */
 #include "fixture.h"
 #include "sim/methods/wcsph/wcsph.h"
 
@@ -84,8 +83,7 @@ static void the_step_is_of_second_order(void **state)
         fixture_free(&s[i]);
 }
 
-/* A flow that adds 1e-9 of the density in half a step: single precision of the density itself would lose it.
- */
+/* A flow that adds 1e-9 of the density in half a step: lost in single precision of the density. */
 static void slow_compression_is_not_lost(void **state)
 {
     (void)state;
@@ -148,8 +146,8 @@ static double noise_after(double delta, double *mean)
     return sqrt(square);
 }
 
-/* A full box whose density grows evenly along x and y, one step from rest: nothing to diffuse, in its corners
-   neither. Without the gradients the particles next to walls would change by 0.008 kg/m3. */
+/* A full box with density growing evenly along x and y, a step from rest: no diffusion, even in corners.
+   Without the gradients the particles next to walls would change by 0.008 kg/m3. */
 static void diffusion_leaves_an_even_slope(void **state)
 {
     (void)state;
@@ -196,7 +194,7 @@ static void diffusion_calms_the_density(void **state)
     assert_true(fabs(with_mean - without_mean) < 0.1);
 }
 
-/* Heavy and light, one viscous, the other damped artificially, through each other. */
+/* Heavy and light fluid, viscous and artificially damped, through each other. */
 static void viscosity_keeps_momentum(void **state)
 {
     (void)state;
@@ -223,7 +221,7 @@ static void viscosity_keeps_momentum(void **state)
     world_destroy(world);
 }
 
-/* A world that is changed before its first step is the world that was made so; later it goes on. */
+/* A world changed before the first step equals a world made with the change; a later change continues. */
 static void it_changes_while_it_lives(void **state)
 {
     (void)state;

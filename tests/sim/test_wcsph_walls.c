@@ -26,8 +26,8 @@ static WorldDef tank_def(const Tank *tank)
     return def;
 }
 
-/* A lattice in the tank, each particle as dense as the weight above it makes it, and moved by jitter; without
-   gravity all pressed by 1 %. Layers lie as close as their densities say. */
+/* A lattice in the tank, each particle with the density of the weight above, and moved by jitter; without
+   gravity all compressed by 1 %. Layer distances match densities. */
 static World *tank_world(const Tank *tank, const WorldDef *def)
 {
     static float x[3 * MOST], density[MOST];

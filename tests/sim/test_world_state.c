@@ -1,4 +1,6 @@
 /* Save, load, step is step, to the bit; and what is no state of this world is refused. */
+#include "tests/lists.h"
+
 #include "fixture.h"
 
 #include "slosh/state.h"
@@ -24,9 +26,8 @@ static WorldDef moving_def(int threads)
     def.fluids[1] = (FluidDef){.name = "oil", .density = 700, .viscosity = 2};
     fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 0.3, 0.5);
     fixture_block(&def, 1, -0.5, 0.3, -0.5, 0, 0.6, 0.5);
-    def.motions[0] = (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.05, .frequency = 1};
-    def.motions[1] = (Motion){.kind = MOTION_ROCK, .axis = {0, 0, 1}, .angle_deg = 5, .frequency = 0.7};
-    def.motion_count = 2;
+    add_motion(&def, (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.05, .frequency = 1});
+    add_motion(&def, (Motion){.kind = MOTION_ROCK, .axis = {0, 0, 1}, .angle_deg = 5, .frequency = 0.7});
     return def;
 }
 
@@ -70,7 +71,7 @@ static void save_load_step_is_step(void **state)
         live(straight, 0, at);
         must(world_save(straight, &saved, &error));
         live(straight, at, 16);
-        live(loaded, 0, 2); /* whatever it was */
+        live(loaded, 0, 2); /* whatever value before */
         must(world_load(loaded, &saved, &error));
         live(loaded, at, 16);
         same_bits(straight, loaded);

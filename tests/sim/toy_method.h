@@ -1,4 +1,4 @@
-/* A method in one file: springs that harden with the age of their particles. It adds itself to the list. */
+/* A method in a single file: springs that harden with the particles' age. Registers in the list. */
 #ifndef SLOSH_TESTS_TOY_METHOD_H
 #define SLOSH_TESTS_TOY_METHOD_H
 
@@ -6,7 +6,7 @@
 #include "sim/cpu/cpu.h"
 #include "sim/step/substep.h"
 
-static const double soft = 50; /* its settings are one number */
+static const double soft = 50; /* a single number as settings */
 static const Key spring_keys[] = {NUMBER("solver.springs", L, "1/s2", 0, 1000, 0, "stiffness when new"),
                                   KEYS_END};
 static Method toy;

@@ -4,7 +4,7 @@
 
 #include "tests/scratch.h"
 
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <stdio.h>
 #include <stdlib.h>

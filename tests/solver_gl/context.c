@@ -1,6 +1,6 @@
 /* For the solver's tests on a GPU: a context from before main to the end. */
 #include "app/run/offscreen.h"
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* What the tests of the view splat share: fixed particles, the maps that its passes leave, and the same by
-   the paper's equations in double. */
+/* Common parts of the splat tests: fixed particles, the maps of the passes, and the paper's equations in
+   double. */
 #ifndef SLOSH_SPLAT_FIXTURE_H
 #define SLOSH_SPLAT_FIXTURE_H
 
@@ -7,7 +7,7 @@
 
 #include "render/frame/frame.h"
 #include "render/views/splat/splat_private.h"
-#include "sim/gpu/timer.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 
@@ -106,7 +106,7 @@ static inline void read_shown(const SplatMaps *maps, SplatPixel *pixels, int cou
     free(normal);
 }
 
-/* The view after it drew a scene into a target of its own; splat_close ends it. */
+/* The view after drawing a scene into a test target; splat_close ends the view. */
 typedef struct SplatDrawing {
     void *view;
     Target target;
@@ -114,7 +114,7 @@ typedef struct SplatDrawing {
     unsigned uniforms;
 } SplatDrawing;
 
-/* What the target shows before the view draws into it; NULL: nothing in particular. */
+/* The target's content before the view draws; NULL: arbitrary. */
 typedef void SplatGround(const Target *target);
 
 static inline SplatDrawing splat_open(SplatScene *scene, SplatGround *ground, bool plain)
@@ -130,7 +130,7 @@ static inline SplatDrawing splat_open(SplatScene *scene, SplatGround *ground, bo
     frame_make(&scene->frame, &(Subject){&scene->def, &scene->world}, &buffers, &drawing.target,
                view_radii(&view_splat, &scene->def, &buffers), (CoveredParts){0});
     scene->frame.plain = plain;
-    scene->frame.floor_light = no_shadows();
+    scene->frame.floor.light = no_shadows();
     drawing.uniforms = frame_uniforms_create();
     frame_uniforms_update(drawing.uniforms, &scene->frame, buffers.box_size, buffers.spacing);
     target_begin(&drawing.target);
@@ -178,7 +178,7 @@ static inline double dot3(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Of one sphere on one ray. */
+/* Of a sphere on a ray. */
 typedef struct SplatHit {
     double depth, rho; /* rho: how far beside the centre the ray is, in radii */
     double normal[3];
@@ -254,7 +254,7 @@ static inline SplatHit hit_of(const SplatScene *scene, size_t particle, double x
     matrix_transform(scene->frame.box_to_world, at, at);
     matrix_transform(camera->view, at, at);
     const double c[3] = {at[0], at[1], at[2]},
-                 r = splat_def(&scene->def)->drops ? splat_shapes[particle] : scene->frame.particle_radius;
+                 r = splat_def(&scene->def)->drops ? splat_shapes[particle] : scene->frame.radii.drawn;
     if (ellipsoid)
         return hit_ellipsoid(scene, shape, c, ray);
     return splat_def(&scene->def)->shape == SPLAT_PAPER ? hit_paper(c, r, ray) : hit_perspective(c, r, ray);
@@ -283,7 +283,7 @@ static inline double weight_of(const SplatScene *scene, const SplatHit *hit, dou
 static inline SplatPixel splat_wanted(const SplatScene *scene, double x, double y)
 {
     SplatPixel pixel = {.depth = 1e30};
-    const double eps = splat_def(&scene->def)->eps * scene->frame.particle_radius;
+    const double eps = splat_def(&scene->def)->eps * scene->frame.radii.drawn;
     for (size_t i = 0; i < scene->particles->count; i++) {
         const SplatHit hit = hit_of(scene, i, x, y);
         pixel.unsure |= fabs(hit.rho - 1) < 1e-3;
@@ -314,8 +314,8 @@ static inline double splat_rounding(void)
 
 typedef SplatPixel (*SplatFormula)(const SplatScene *scene, double x, double y);
 
-/* What the formula differs by where hardware may draw a pixel (fixture.h), the greatest of each number. False
-   where it is unsure of one of them. */
+/* Greatest differences of the formula over hardware pixel positions (fixture.h), per number. False if a
+   number is uncertain. */
 static inline bool splat_snap(const SplatScene *scene, SplatFormula formula, int x, int y,
                               const SplatPixel *wanted, SplatPixel *slack)
 {
@@ -341,7 +341,7 @@ static inline int splat_compare(SplatScene *scene)
 {
     SplatPixel *drawn = splat_drawn(scene);
     const bool ellipsoid =
-        splat_def(&scene->def)->shape == SPLAT_ELLIPSOID; /* stretched, and with it what rounding does */
+        splat_def(&scene->def)->shape == SPLAT_ELLIPSOID; /* stretched, rounding included */
     int covered = 0;
     for (int i = 0; i < scene->width * scene->height; i++) {
         const int x = i % scene->width, y = i / scene->width;
@@ -351,7 +351,7 @@ static inline int splat_compare(SplatScene *scene)
         if (wanted.unsure || !splat_snap(scene, splat_wanted, x, y, &wanted, &snap))
             continue;
         const double slack = snap.depth + 5e-7 * (wanted.depth + (ellipsoid ? 8 : 2) * wanted.slope *
-                                                                     scene->frame.particle_radius);
+                                                                     scene->frame.radii.drawn);
         if (fabs(drawn[i].depth - wanted.depth) > slack)
             fail_msg("pixel %d %d: depth %.9g, formula %.9g", x, y, drawn[i].depth, wanted.depth);
         const double most =

@@ -44,7 +44,7 @@ static inline void level_ray(const SplatScene *scene, double x, double y, LevelR
     const Camera *camera = &scene->frame.camera;
     const double ray[3] = {(2 * (x + 0.5) / scene->width - 1) * camera->tangent[0],
                            (2 * (y + 0.5) / scene->height - 1) * camera->tangent[1], -1};
-    const double h = scene->frame.particle_radius, spacing = scene->state.spacing;
+    const double h = scene->frame.radii.drawn, spacing = scene->state.spacing;
     *out = (LevelRay){.scene = scene, .h = h, .volume = spacing * spacing * spacing};
     for (size_t i = 0; i < scene->particles->count; i++) {
         float at[3];
@@ -118,7 +118,7 @@ static inline SplatPixel level_wanted(const SplatScene *scene, double x, double 
         const LevelChord *chord = &ray.chords[i];
         const double r = level_distance(chord, pixel.depth), s = pixel.depth - chord->middle;
         const double weight = ray.volume * kernel_poly6(r, ray.h);
-        const double change = ray.volume * kernel_poly6_derivative(r, ray.h) / r;
+        const double change = ray.volume * density_kernel_find("poly6")->derivative(r, ray.h) / r;
         const float *color = scene->world.fluids[scene->particles->fluid[chord->particle]].color;
         pixel.weight += weight;
         slope += change * chord->length2 * s * ray.h;
@@ -147,7 +147,7 @@ static inline int level_compare(SplatScene *scene, int stride)
             continue;
         covered += wanted.depth < 1e29;
         const double slack =
-            snap.depth + (snaps() ? 2e-4 : 1e-4) * scene->frame.particle_radius + 5e-7 * wanted.depth;
+            snap.depth + (snaps() ? 2e-4 : 1e-4) * scene->frame.radii.drawn + 5e-7 * wanted.depth;
         if (fabs(drawn[i].depth - wanted.depth) > slack)
             fail_msg("pixel %d %d: depth %.9g, by marching %.9g", x, y, drawn[i].depth, wanted.depth);
         if (fabs(drawn[i].weight - wanted.weight) > 1e-3 * splat_def(&scene->def)->level + snap.weight)

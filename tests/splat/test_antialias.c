@@ -187,7 +187,7 @@ static void outlines_of_drops_and_ellipsoids(void **state)
 {
     (void)state;
     SolidsScene scene = scene_of(20);
-    for (size_t i = 0; i < scene.particles->count; i++) /* half of them are far from each other */
+    for (size_t i = 0; i < scene.particles->count; i++) /* half are far apart */
         if (i % 2)
             for (int k = 0; k < 3; k++)
                 scene.particles->position[4 * i + k] =
@@ -199,8 +199,8 @@ static void outlines_of_drops_and_ellipsoids(void **state)
     expect_nearer("ellipsoids", &scene, 1.9);
 }
 
-/* One before the fluid, one that is half in it, one behind: outlines of the fluid before a solid, of a solid
-   before the fluid, and where they meet. */
+/* A solid before the fluid, half inside, and behind: outlines of fluid before a solid, of a solid before
+   fluid, and the contact line. */
 static void outlines_with_solids(void **state)
 {
     (void)state;
@@ -211,8 +211,7 @@ static void outlines_with_solids(void **state)
     expect_nearer("solids", &scene, 1.6);
 }
 
-/* A pixel with no outline in it or next to it is what it is without; so is a solid before fluid that it
- * hides. */
+/* A pixel without an outline nearby is unchanged; a solid in front of hidden fluid too. */
 static void the_inside_stays(void **state)
 {
     (void)state;

@@ -206,7 +206,7 @@ static void a_position_that_is_no_number(void **state)
     }
 }
 
-/* A picture that tells its own columns and rows, to half of one: red and green. */
+/* A picture with column and row encoded to half a pixel: red and green. */
 enum { SIDE = 240 };
 static uint8_t ground_rgba[4 * SIDE * SIDE];
 
@@ -250,8 +250,8 @@ static void in_world(const SplatScene *scene, const double at[3], double out[3])
         out[k] = (double)place[k];
 }
 
-/* How much of the straight ray leaves the fluid beside the walls: all of it 2.5 spacings from them, nothing
- * at 0.75. */
+/* The share of the straight ray leaving beside the walls: all at 2.5 spacings from the walls, none at
+   0.75. */
 static double leaves_inside(const SplatScene *scene, const double place[3], const double unit[3],
                             double thick)
 {
@@ -321,8 +321,7 @@ static Way way_of(const SplatScene *scene, const SplatPixel *pixel, const Map *m
     return way;
 }
 
-/* A white fluid absorbs nothing: its colour is that of the place which the bent ray comes to. Returns the
-   mean shift from the pixel itself, in pixels. */
+/* A white fluid absorbs no light: the colour is of the bent ray's end. Returns the mean shift in pixels. */
 static double compare_bending(double ior)
 {
     double shift = 0;
@@ -425,7 +424,7 @@ static void absorption_by_beer_and_lambert(void **state)
     free(scene.particles);
 }
 
-/* One layer of particles, through which one sees a spacing, has the fluid's colour. */
+/* A layer of particles, a spacing thick in view, has the fluid's colour. */
 static void absorption_in_two_dimensions(void **state)
 {
     (void)state;
@@ -468,7 +467,7 @@ static double sky_tint(double brightness, int component)
  * next to the sun. */
 static double mirrored_sky(const SplatScene *scene, const double ray[3], const double normal[3])
 {
-    const float *view = scene->frame.camera.view, *light = scene->frame.to_light;
+    const float *view = scene->frame.camera.view, *light = scene->frame.light.to;
     double mirror[3], world[3] = {0}, sun = 0;
     for (int k = 0; k < 3; k++)
         mirror[k] = ray[k] - 2 * dot3(ray, normal) * normal[k];
@@ -481,7 +480,7 @@ static double mirrored_sky(const SplatScene *scene, const double ray[3], const d
     return sun > 0.8 ? -1 : 1.04 - 0.42 * rise * rise;
 }
 
-/* A black fluid lets nothing out: all that is seen is what its surface mirrors. */
+/* A black fluid emits no light: only reflections are visible. */
 static void reflection_by_fresnel(void **state)
 {
     (void)state;

@@ -71,7 +71,7 @@ static void nor_from_within_the_fluid(void **state)
     free(scene.particles);
 }
 
-/* Thin ellipsoids, seen from their edges, with gaps between them that balls of their volume would close. */
+/* Thin ellipsoids on edge, with gaps that balls of the same volume would close. */
 static void nor_behind_gaps_between_sheets(void **state)
 {
     (void)state;
@@ -100,7 +100,7 @@ static void it_leaves_out_what_is_hidden(void **state)
     SplatPixel *seen = splat_drawn(&scene);
     splat_def(&scene.def)->show = SPLAT_CULLED;
     SplatPixel *hidden = splat_drawn(&scene);
-    const double eps = splat_def(&scene.def)->eps * scene.frame.particle_radius;
+    const double eps = splat_def(&scene.def)->eps * scene.frame.radii.drawn;
     int covered = 0, over = 0;
     for (int i = 0; i < scene.width * scene.height; i++) {
         covered += seen[i].depth < 1e29;

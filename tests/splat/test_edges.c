@@ -92,7 +92,7 @@ static void an_eye_inside_the_fluid(void **state)
     SplatScene scene = two_drops();
     particles_add(scene.particles, 0.02, 0.5, 3.05, 1, 0);
     particles_add(scene.particles, -0.1, 0.5, 2.9, 1, 0);
-    particles_add(scene.particles, 0.25, 0.5, 2.9, 1, 1); /* beside it */
+    particles_add(scene.particles, 0.25, 0.5, 2.9, 1, 1); /* beside the fluid */
     assert_true(splat_compare(&scene) > 600);
     free(scene.particles);
 }

@@ -1,5 +1,5 @@
-/* The view splat with ellipsoids and with drops: pixel by pixel against rays and ellipsoids in double, and
-   what both are for: flat surfaces, drops of their own size. */
+/* The view splat with ellipsoids and with drops: pixel by pixel against rays and ellipsoids in double,
+   and the purposes: flat surfaces, drops of correct size. */
 #include "tests/splat/splat_fixture.h"
 
 /* Few will do where neither sprites nor culling matter. */
@@ -180,8 +180,8 @@ static void the_field_is_one_of_balls(void **state)
     free(scene.particles);
 }
 
-/* The surface of a fluid at rest, seen from above: 30 x 30 x 8 particles, each as much beside its place in a
-   lattice as it is in a settled one. Root mean square of the depth around its mean, in spacings. */
+/* The surface of a fluid at rest, from above: 30 x 30 x 8 particles, displaced from lattice places as in
+   a settled fluid. Root mean square of the depth around the mean, in spacings. */
 static double roughness(SplatShape shape, double *mean)
 {
     const double s = 0.03;

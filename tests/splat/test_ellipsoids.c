@@ -1,5 +1,4 @@
-/* What stands for particles in the view splat where it follows their neighbours, against sums over all pairs
-   in double. */
+/* Shapes in the view splat derived from neighbours, against sums over all pairs in double. */
 #include "tests/splat/splat_fixture.h"
 
 typedef struct Body {
@@ -17,8 +16,8 @@ static double touch_of(double spacings)
     return 1 - t * t * (3 - 2 * t);
 }
 
-/* The share of a neighbour's image behind walls of the box, and its offset in h: `image` has bits of the axes
-   that they mirror. */
+/* The share of a neighbour's image behind walls of the box, and the image's offset in h: `image` has bits
+   of the mirrored axes. */
 static double image_of(const SplatScene *scene, size_t i, size_t j, int image, double d[3])
 {
     const float *from = &scene->particles->position[4 * i], *to = &scene->particles->position[4 * j];
@@ -38,7 +37,7 @@ static double image_of(const SplatScene *scene, size_t i, size_t j, int image, d
     return share;
 }
 
-/* Weight (Yu and Turk 2013, eq. 11) and offset in h of one particle, or its image, seen from another. */
+/* Weight (Yu and Turk 2013, eq. 11) and offset in h of a particle or image, seen from a second particle. */
 static double weight_at(const SplatScene *scene, size_t i, size_t j, int image, double d[3])
 {
     const double share = image_of(scene, i, j, image, d), q2 = dot3(d, d);
@@ -106,11 +105,11 @@ static Body body_wanted(const SplatScene *scene, size_t i, bool flat)
     const double sum = weighted_mean(scene, i, mean, &body.crowd), pi = acos(-1);
     const double drop = scene->state.spacing * (flat ? sqrt(1 / pi) : cbrt(3 / (4 * pi)));
     const double share = share_of(scene, body.crowd - 1, flat),
-                 alone = splat_def(&scene->def)->drops ? drop : scene->frame.particle_radius;
+                 alone = splat_def(&scene->def)->drops ? drop : scene->frame.radii.drawn;
     covariance(scene, i, mean, sum, body.axes);
     round_off(body.axes, share, flat);
     body.crowd -= 1;
-    body.radius = alone + share * (scene->frame.particle_radius - alone);
+    body.radius = alone + share * (scene->frame.radii.drawn - alone);
     for (int k = 0; k < 3; k++)
         body.centre[k] = scene->particles->position[4 * i + (size_t)k] +
                          0.5 * share * scene->state.support_radius * mean[k];
@@ -161,7 +160,7 @@ static SplatScene in_a_box(double spacing)
     return scene;
 }
 
-/* Dense and sparse, in the box and beside it, on cells' borders, one in the place of another. */
+/* Dense and sparse, inside and outside the box, on cell borders, and coincident. */
 static void scatter(Particles *particles)
 {
     for (int i = 0; i < 1200; i++)
@@ -190,7 +189,7 @@ static void sums_over_all_pairs(void **state)
     free(scene.particles);
 }
 
-/* Their own shader ends its sums early. */
+/* A separate shader ends the sums early. */
 static void radii_of_drops(void **state)
 {
     (void)state;
@@ -348,7 +347,7 @@ static void room_grows_ahead(void **state)
     (void)state;
     Error error = {0};
     SplatScene scene = splat_scene((double[]){0, 0.5, 3}, (double[]){0, 0.5, 0}, 20, 0.05);
-    Frame frame = {.def = &scene.def, .particle_radius = 0.05F};
+    Frame frame = {.def = &scene.def, .radii.drawn = 0.05F};
     Ellipsoids drops;
     ParticleBuffers buffers;
     size_t capacity = 0;

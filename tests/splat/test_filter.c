@@ -1,10 +1,10 @@
-/* The view splat with its filter: sheets of spheres become flat, their outlines stay, and nothing breaks
-   where there is next to nothing, or too much. */
+/* The view splat with filter: sheets of spheres become flat, outlines stay, and extremes of coverage are
+   safe. */
 #include "tests/splat/splat_fixture.h"
 
 #define SPACING 0.05
 
-/* Jittered spheres whose front is a plane through the world's x axis, which leans back by that angle. */
+/* Jittered spheres, with a front plane through the world's x axis, leaning back by the angle. */
 static SplatScene sheet(double angle)
 {
     SplatScene scene = splat_scene((double[]){0, 0.5, 3}, (double[]){0, 0.5, 0}, 30, SPACING);
@@ -20,8 +20,8 @@ static SplatScene sheet(double angle)
     return scene;
 }
 
-/* A clear fluid's thickness, in a coarser map, comes before the filter and does not concern it; without walls
-   nothing cuts it. */
+/* A clear fluid's thickness, in a coarser map, is made before the filter and independent; no cut without
+   walls. */
 static void the_same_with_each_shading(void **state)
 {
     (void)state;
@@ -76,8 +76,8 @@ static void a_flat_surface_becomes_flatter(void **state)
     }
 }
 
-/* What is covered is covered after it, and the rest is not; a brim turns away, and a second sheet
-   far behind is nearly as if it were alone. */
+/* Coverage is unchanged by the filter; a brim turns away, and a second sheet far behind is nearly
+   undisturbed. */
 static void outlines_stay(void **state)
 {
     (void)state;

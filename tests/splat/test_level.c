@@ -14,7 +14,7 @@ static SplatScene level_scene(const double from[3], const double to[3], double f
     return scene;
 }
 
-/* Both shapes, both sprites, each with culling and without. */
+/* Each shape, each sprite, with and without culling. */
 static void compare_all(SplatScene *scene, int stride, int least)
 {
     for (int choice = 0; choice < 4; choice++) {
@@ -53,13 +53,13 @@ static void one_particle_is_a_ball(void **state)
     SplatScene scene = level_scene((double[]){0, 0.5, 3}, (double[]){0, 0.5, 0}, 30, 0.6, 0.08);
     particles_add(scene.particles, 0.2, 0.6, 0.1, 1, 0);
     SplatPixel *drawn = splat_drawn(&scene);
-    const double h = scene.frame.particle_radius, spacing = scene.state.spacing;
+    const double h = scene.frame.radii.drawn, spacing = scene.state.spacing;
     const double gain = spacing * spacing * spacing * kernel_poly6(0, h);
     const double radius = h * sqrt(1 - cbrt(0.08 / gain));
     int covered = 0;
     assert_float_equal(h, 0.6, 1e-6);
     assert_float_equal(radius, splat_level_lone_distance(0.08, gain, h), 1e-9);
-    scene.frame.particle_radius = (float)radius;
+    scene.frame.radii.drawn = (float)radius;
     for (int i = 0; i < scene.width * scene.height; i++) {
         const SplatHit hit = hit_of(&scene, 0, i % scene.width, i / scene.width);
         if (fabs(hit.rho - 1) < 4e-3)
@@ -131,7 +131,7 @@ static void a_radius_of_the_scenes_own(void **state)
     SplatScene scene = heap(0.4);
     scene.def.radius = 1.5;
     assert_true(level_compare(&scene, 3) > 300);
-    assert_float_equal(scene.frame.particle_radius, 0.15, 1e-6);
+    assert_float_equal(scene.frame.radii.drawn, 0.15, 1e-6);
     free(scene.particles);
 }
 
@@ -145,7 +145,7 @@ static void a_thin_drop_before_fluid(void **state)
         particles_add(scene.particles, 0.1 * (x - 4.5), 0.5 + 0.1 * (y - 4.5), -1 + 0.1 * z, 1, 0);
     }
     particles_add(scene.particles, 0.02, 0.5, 2, 1, 1); /* alone it is nowhere at the level */
-    for (int i = 0; i < 8; i++)                         /* mist: supports one behind the other, then a gap */
+    for (int i = 0; i < 8; i++)                         /* mist: supports in a row, then a gap */
         particles_add(scene.particles, 0.1 * sin(5.3 * i), 0.5 + 0.1 * sin(3.1 * i), 0.2 + 0.15 * i, 1, 1);
     compare_all(&scene, 2, 500);
 }
@@ -208,7 +208,7 @@ static void an_eye_inside_the_fluid(void **state)
     }
 }
 
-/* Culling hides nothing that is seen: the same bits. */
+/* Culling hides no visible part: the same bits. */
 static void culling_changes_no_pixel(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The narrow-range filter of the view splat, on maps of depths made up here: against its formulas in double,
-   and what it must keep. */
+/* The narrow-range filter of the view splat, on synthetic depth maps: against formulas in double, and
+   invariants. */
 #include "tests/splat/splat_fixture.h"
 
 #include "render/views/splat/splat_private.h"
@@ -64,9 +64,9 @@ static void filter_map(Map *map)
     assert_true(target_create(&target, W, H, &error));
     *splat_def(&def) = map->splat, def.radius = 1;
     def.camera_auto = false, def.camera = (CameraDef){{0, 0.5, 3}, {0, 0.5, 0}, 40};
-    frame_make(&map->frame, &(Subject){&def, &world}, &buffers, &target, frame_ball_radii(&def, &buffers, 1),
+    frame_make(&map->frame, &(Subject){&def, &world}, &buffers, &target, view_ball_radii(&def, &buffers, 1),
                (CoveredParts){0});
-    memcpy(map->frame.bounds, (float[4]){-1, 1, -1, 1}, sizeof map->frame.bounds);
+    memcpy(map->frame.extent.bounds, (float[4]){-1, 1, -1, 1}, sizeof map->frame.extent.bounds);
     const unsigned uniforms = frame_uniforms_create();
     frame_uniforms_update(uniforms, &map->frame, buffers.box_size, buffers.spacing);
     target_begin(&target);
@@ -232,8 +232,8 @@ static void planes_stay_planes(void **state)
     }
 }
 
-/* A near sheet on the left, a far wall or nothing on the right: the greatest ways that they go towards each
- * other. */
+/* A near sheet on the left, a far wall or empty space on the right: the greatest shifts towards each
+   other. */
 static void edge_moves(double near, double far, double *front, double *back)
 {
     Map map = map_create();

@@ -139,14 +139,14 @@ static uint8_t *seen_through(SplatScene *scene, double attenuation)
     return rgba;
 }
 
-/* How much fluid a pixel's green stands for, m, beside that of a fluid that takes nothing. */
+/* Fluid thickness from a pixel's green, m, relative to a fluid without absorption. */
 static double thickness_seen(const uint8_t *rgba, const uint8_t *clear)
 {
     return 0.4 * log(linear_of(rgba[1]) / linear_of(clear[1])) / log((double)COLOUR[1]);
 }
 
-/* The pixel's way in the tank. `sides`: how many mirrored it; -1 where it enters next to an edge, which
- * ellipsoids round. */
+/* The pixel's path in the tank. `sides`: number of reflections; -1 if entering next to an edge rounded by
+   ellipsoids. */
 static double wanted_way(const Through *sight, int *sides)
 {
     static const double low[] = {-0.5, 0, -0.25}, high[] = {0.5, 0.5, 0.25}, near = 1.5;
@@ -241,7 +241,7 @@ static void a_drop_behind_is_seen_through(void **state)
     free(scene.particles);
 }
 
-/* Only those behind are the view's: the others lie over it. */
+/* Only edges behind belong to the view: the rest is an overlay. */
 static void edges_behind_are_seen_through(void **state)
 {
     (void)state;

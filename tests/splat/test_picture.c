@@ -1,8 +1,7 @@
-/* The view splat among all else that a picture has: solids, shadows, colours, its settings while it is drawn.
- */
+/* The view splat in a whole picture: solids, shadows, colours, settings changed while drawing. */
 #include "tests/render/solids_fixture.h"
 
-#include "render/frame/camera.h"
+#include "render/frame/frame.h"
 
 static SolidsScene splat_among_solids(void)
 {
@@ -20,7 +19,7 @@ static const uint8_t *pixel_of(const uint8_t *rgb, int x, int y)
     return &rgb[3 * (y * WIDTH + x)];
 }
 
-/* A ball before the drop hides it, a ball behind is hidden by it; where they meet, the nearer one is seen. */
+/* A ball in front hides the drop, a ball behind is hidden; at the contact the nearer surface is seen. */
 static void solids_hide_and_are_hidden(void **state)
 {
     (void)state;
@@ -60,8 +59,8 @@ static void pixel_at(const SolidsScene *scene, const double at[3], int pixel[2])
     pixel[0] = (int)place[0], pixel[1] = (int)place[1];
 }
 
-/* The light comes from the direction (-0.40, 0.84, 0.3666), render/frame.c; the floor is 0.045 diagonals
- * below the box. */
+/* The light comes from the direction (-0.40, 0.84, 0.3666), render/frame/frame.c; the floor is 0.045
+   diagonals below the box. */
 static void its_shadow_falls_on_the_floor(void **state)
 {
     (void)state;
@@ -120,8 +119,8 @@ static void solids_and_drops_shade_the_fluid(void **state)
     compare_shadow(false);
 }
 
-/* Through clear fluid one sees a solid behind it, where it is bent to; a solid before it hides it and is not
-   seen again inside. */
+/* Through clear fluid a solid behind is seen, refracted; a solid in front hides the fluid, without a
+   second image inside. */
 static void solids_through_clear_fluid(void **state)
 {
     (void)state;
@@ -148,8 +147,8 @@ static void solids_through_clear_fluid(void **state)
     }
 }
 
-/* What the floor loses of light, summed up, is as its silhouette: 0.62^2 of that of a sphere of a spacing.
- * The drop itself is not in the picture. */
+/* The floor's lost light, summed, matches the silhouette: 0.62^2 of a sphere of a spacing. The drop is
+   outside the picture. */
 static void a_drops_shadow_is_its_own(void **state)
 {
     (void)state;
@@ -172,8 +171,7 @@ static void a_drops_shadow_is_its_own(void **state)
     free(scene.particles);
 }
 
-/* Where the surface is has nothing to do with its shading, whatever else is on: passes of one do not disturb
- * another's. */
+/* The surface is independent of shading, with any further settings: passes do not disturb each other. */
 static void shading_leaves_the_surface_alone(void **state)
 {
     (void)state;
@@ -195,8 +193,7 @@ static void shading_leaves_the_surface_alone(void **state)
     }
 }
 
-/* Along a line through drops of two fluids that overlap the colour goes from one to the other, by small
- * steps. */
+/* Along a line through overlapping drops of two fluids the colour changes by small steps. */
 static void colours_mix_where_fluids_meet(void **state)
 {
     (void)state;
@@ -244,7 +241,7 @@ static void change(Renderer *renderer, SolidsScene *scene, uint8_t rgb[3 * PIXEL
     renderer_read(renderer, rgb);
 }
 
-/* Numbers that only some pictures have stand behind the setting that makes one of these. */
+/* Numbers of some pictures only stand after the enabling setting. */
 static void make_settings(SplatDef usual, SplatDef others[], int count)
 {
     for (int i = 0; i < count; i++)
@@ -347,8 +344,7 @@ static void maps_can_be_seen(void **state)
     free(scene.particles);
 }
 
-/* A drop, and another picture of it elsewhere by the same view: as by one that never saw it at the first
- * place. */
+/* A drop, and a picture of the drop elsewhere by the same view: equal to a new view. */
 static void nothing_is_left_of_the_picture_before(void **state)
 {
     (void)state;

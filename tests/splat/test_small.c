@@ -1,4 +1,4 @@
-/* Spheres of the view splat that are smaller than pixels: they cover as much as their area does. */
+/* Spheres of the view splat smaller than pixels: coverage equals area. */
 #include "tests/splat/outlines_fixture.h"
 
 /* Drops 0.3 pixels in radius, far from each other. */
@@ -13,8 +13,7 @@ static SolidsScene drops(double radius_pixels)
     return scene;
 }
 
-/* Light that they take from a picture; mean over a camera that moves by parts of a pixel, and its deviation.
- */
+/* Light taken from a picture; mean over a camera moving by parts of a pixel, and the deviation. */
 static void darkening(const SolidsScene *scene, bool antialias, double *mean, double *deviation)
 {
     static uint8_t rgb[3 * N], clear[3 * N];
@@ -58,7 +57,7 @@ static void small_drops_neither_vanish_nor_sparkle(void **state)
         darkening(&scene, true, &with, &flicker);
         darkening(&scene, false, &without, &flicker_without);
         one = i == 0 ? with / pow(radii[i], 2) : one;
-        const double area = with / pow(radii[i], 2) / one; /* 1 where they take their area's share */
+        const double area = with / pow(radii[i], 2) / one; /* 1 at the share of the area */
         if (flicker > 0.03 * with || flicker > flicker_without / 1.5 || area < 0.75 || area > 1.1)
             fail_msg("%g pixels: %g +- %g with, %g +- %g without; %g of its area", radii[i], with, flicker,
                      without, flicker_without, area);
@@ -78,7 +77,7 @@ static int blue_pixels(const SolidsScene *scene, bool antialias)
     return count;
 }
 
-/* Drops of the other fluid, smaller than pixels, before a wall of large ones: it is seen through them. */
+/* Drops of the second fluid, smaller than pixels, before a wall of large drops: the wall shows through. */
 static void small_drops_leave_no_hole(void **state)
 {
     (void)state;

@@ -3,9 +3,9 @@
 #include "tests/scratch.h"
 #include "tests/splat/splat_fixture.h"
 
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
-/* Both shapes, both sprites. */
+/* Each shape with each sprite. */
 static void compare_all(SplatScene *scene, int least, bool points_too)
 {
     for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_PAPER; shape++)
@@ -32,7 +32,7 @@ static void depth_of_spheres_centred_outside_the_view(void **state)
     (void)state;
     SplatScene scene = splat_scene((double[]){0, 0, 2}, (double[]){0, 0, 0}, 40, 0.5);
     particles_add(scene.particles, 1.3, 0, 0, 1, 0);  /* beyond the right side */
-    particles_add(scene.particles, 0, -1.0, 0, 1, 1); /* beyond the lower one */
+    particles_add(scene.particles, 0, -1.0, 0, 1, 1); /* beyond the lower layer */
     compare_all(&scene, 100, true);
 }
 
@@ -105,8 +105,8 @@ static void a_colour_holds_to_the_rim(void **state)
     }
 }
 
-/* With a driver whose first pass rounds depths down by a few units more than its second one, each covered
-   pixel has its foremost sphere still. */
+/* With a driver rounding depths of the first pass down by a few units more than the second, each covered
+   pixel still has the foremost sphere. */
 static void depths_may_be_rounded_otherwise(void **state)
 {
     (void)state;

@@ -4,7 +4,7 @@
 enum { SIDE = 240 };
 static const double CENTRE[3] = {0.1, 0.5, 0.1}, ATTENUATION = 0.1; /* m */
 
-/* One particle; `spacing` makes its drop. */
+/* A particle; `spacing` gives the drop. */
 static SplatScene drop_scene(double spacing)
 {
     SplatScene scene = splat_scene((double[]){0, 0.6, 2.2}, (double[]){0, 0.5, 0}, 20, spacing);
@@ -182,7 +182,7 @@ static void a_drop_absorbs_along_its_chord(void **state)
     free(scene.particles);
 }
 
-/* Black drops over grey: what they take of it is the area of their discs, however small these are. */
+/* Black drops over grey: the darkened amount is the area of the discs, however small. */
 static void a_drop_covers_its_disc(void **state)
 {
     (void)state;

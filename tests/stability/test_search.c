@@ -3,8 +3,8 @@
 
 #include "app/lab/stability.h"
 
-/* It holds up to `limit`, and in the band [low, high]; `silent` rungs above the limit nothing finds; of rungs
-   above `mixed` below the limit one start fails, `bad`. */
+/* Holds up to `limit`, and in the band [low, high]. `silent` rungs above the limit fail undetected; of
+   rungs above `mixed` below the limit the start `bad` fails. */
 typedef struct MadeUp {
     int limit, low, high, silent, mixed, bad, breaks, tries, wholes, highest;
 } MadeUp;
@@ -131,6 +131,7 @@ static StableRow row_of(int n)
 {
     StableRow row = {.key = 0x9e3779b97f4a7c15ULL * (uint64_t)(n + 1),
                      .rung = -n,
+                     .step = stable_step(-n),
                      .steps = (uint64_t)n * 10,
                      .finder = n % 3 ? FOUND_BY_NOBODY : FOUND_BY_LOOKS,
                      .outcome = {.kind = n % 3 ? OUTCOME_HOLDS : OUTCOME_SQUEEZED, .time = 0.1 * n}};
@@ -158,51 +159,51 @@ static void rows_come_back_in_any_order(void **state)
 {
     (void)state;
     enum { N = 300 };
-    StableRows rows = {.count = 0}, back = {.count = 0};
+    Trials rows = {.table = &stable_table}, back = {.table = &stable_table};
     static char first[65536];
     Error error;
     for (int n = 0; n < N; n++) {
         const StableRow row = row_of(n * 7 % N);
-        assert_true(stable_rows_add(&rows, &row) && stable_rows_add(&rows, &row));
+        assert_true(trials_add(&rows, &row, NULL) && trials_add(&rows, &row, NULL));
     }
     assert_int_equal(rows.count, N);
-    assert_true(stable_rows_write(&rows, PATH, &error));
+    assert_true(trials_write(&rows, PATH, &error));
     snprintf(first, sizeof first, "%s", file_text());
-    assert_true(stable_rows_read(&back, PATH, stderr, &error));
+    assert_true(trials_read(&back, PATH, stderr, &error));
     assert_int_equal(back.count, N);
     for (int n = 0; n < N; n++) {
         const StableRow row = row_of(n);
-        const StableRow *found = stable_rows_find(&back, row.key);
+        const StableRow *found = trials_find(&back, row.key);
         assert_non_null(found);
         assert_true(found->rung == row.rung && found->steps == row.steps && found->finder == row.finder &&
                     found->outcome.kind == row.outcome.kind);
         assert_string_equal(found->outcome.words, row.outcome.words);
         assert_string_equal(found->at, row.at);
     }
-    assert_null(stable_rows_find(&back, 1));
-    assert_true(stable_rows_write(&back, PATH, &error));
+    assert_null(trials_find(&back, 1));
+    assert_true(trials_write(&back, PATH, &error));
     assert_string_equal(file_text(), first);
-    stable_rows_free(&rows);
-    stable_rows_free(&back);
+    trials_free(&rows);
+    trials_free(&back);
     remove(PATH);
 }
 
-static size_t read_with(const char *line, const char *as)
+static int read_with(const char *line, const char *as)
 {
-    StableRows rows = {.count = 0};
+    Trials rows = {.table = &stable_table};
     Error error;
     const StableRow one = row_of(3), other = row_of(4);
-    assert_true(stable_rows_add(&rows, &one) && stable_rows_add(&rows, &other) &&
-                stable_rows_write(&rows, PATH, &error));
+    assert_true(trials_add(&rows, &one, NULL) && trials_add(&rows, &other, NULL) &&
+                trials_write(&rows, PATH, &error));
     char *text = file_text(), *at = strstr(text, line);
     assert_non_null(at);
     FILE *file = fopen(PATH, "w"), *none = fopen("/dev/null", "w");
     fprintf(file, "%.*s%s%s", (int)(at - text), text, as, at + strlen(line));
     fclose(file);
-    assert_true(stable_rows_read(&rows, PATH, none, &error));
-    const size_t count = rows.count;
+    assert_true(trials_read(&rows, PATH, none, &error));
+    const int count = rows.count;
     fclose(none);
-    stable_rows_free(&rows);
+    trials_free(&rows);
     remove(PATH);
     return count;
 }

@@ -1,9 +1,9 @@
-/* Starts in balance: pressures of the first state against the weight above, and that nothing moves from
-   there; and starts that are not pressed at all. */
+/* Starts in balance: pressures of the first state against the weight above, and no motion afterwards; and
+   starts without pressure. */
 #include "tests/sim/fixture.h"
 
 #include "sim/methods/wcsph/wcsph.h"
-#include "sim/start/rest.h"
+#include "sim/start/start.h"
 
 static WorldDef tank_def(const char *method, double width, double height)
 {
@@ -31,8 +31,7 @@ static double pressure_error(World *world, double (*weight)(const float x[3]), d
     return sqrt(sum) / scale;
 }
 
-/* At first, and later where the method has sound: what an incompressible one has then is what its tolerance
-   leaves. */
+/* At first, and later for methods with sound: for incompressible methods the rest is the tolerance. */
 static void expect_balance(const WorldDef *def, double (*weight)(const float x[3]), double scale, double most)
 {
     World *world = fixture_world(def);
@@ -96,7 +95,7 @@ static void gravity_may_act_sideways(void **state)
     }
 }
 
-/* Of what starts so: whether its first state is that of a start at rest, to the bit. */
+/* For such starts: true if the first state equals a start at rest, to the bit. */
 static void expect_rest(WorldDef *def, const char *what)
 {
     uint64_t hash[2];
@@ -155,8 +154,7 @@ static void nothing_presses_around_a_period(void **state)
     world_destroy(world);
 }
 
-/* A dam has the pressure that it falls over with: none at its free side, less than its weight on the floor.
- */
+/* A dam has the pressure of the collapse: none at the free side, less than the weight on the floor. */
 static void a_dam_leans_on_nothing(void **state)
 {
     (void)state;
@@ -210,8 +208,8 @@ static double mean_compression(World *world, int fluid, double density)
     return sum / (double)count;
 }
 
-/* Two fluids that fill their box sink from its lid by what their weight presses them: so densities by place,
-   to which shifting leads, are those that particles carry, and the box does not ring. */
+/* Two fluids filling the box sink from the lid under the weight: densities by position, the target of
+   shifting, equal carried densities, and the box does not ring. */
 static void a_full_box_sinks_from_its_lid(void **state)
 {
     (void)state;

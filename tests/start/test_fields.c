@@ -1,4 +1,5 @@
 /* What a start has by formula: velocities, and where a fill ends. */
+#include "tests/lists.h"
 #include "tests/sim/fixture.h"
 
 static WorldDef tank_def(double width, double height)
@@ -47,11 +48,12 @@ static void by_table_as_by_formula(void **state)
         WorldDef def = tank_def(1, 1);
         fixture_block(&def, 0, -0.5, 0, 0, 0.5, 1, 0);
         if (k) {
-            def.fluids[0].fills[0].heights = &heights;
-            strcpy(def.fluids[0].fills[0].below, "heights.csv");
+            Fill *fill = own_fills(&def.fluids[0]);
+            fill->heights = &heights;
+            fill->below = "heights.csv";
             def.fluids[0].flow_table = &speeds;
         } else {
-            strcpy(def.fluids[0].fills[0].below, "0.5 + 0.25 * x");
+            own_fills(&def.fluids[0])->below = "0.5 + 0.25 * x";
             strcpy(def.fluids[0].flow[0], "2 * y");
         }
         World *world = fixture_world(&def);
@@ -61,8 +63,8 @@ static void by_table_as_by_formula(void **state)
     assert_int_equal(hash[0], hash[1]);
 }
 
-/* A wave a tenth of a spacing high, above a fluid or below nothing: the layers next to it follow it, those at
-   the floor do not, and what is compressed is next to nothing. */
+/* A wave a tenth of a spacing high, above a fluid or below empty space: nearby layers follow, layers at
+   the floor do not, and compression is small. */
 static void a_surface_by_formula(void **state)
 {
     (void)state;
@@ -73,7 +75,7 @@ static void a_surface_by_formula(void **state)
         fixture_block(&def, 0, -0.5, 0, 0, 0.5, 1, 0);
         if (fluids > 1)
             fixture_block(&def, 1, -0.5, 0, 0, 0.5, 1, 0);
-        strcpy(def.fluids[0].fills[0].below, "0.6 + 0.005 * cos(2 * pi * x)");
+        own_fills(&def.fluids[0])->below = "0.6 + 0.005 * cos(2 * pi * x)";
         World *world = fixture_world(&def);
         State s = fixture_read(world);
         double next = 0, floor_ = 0;
@@ -100,7 +102,7 @@ static void a_slope_by_formula(void **state)
     (void)state;
     WorldDef def = tank_def(2, 1.2);
     fixture_block(&def, 0, -1, 0, 0, 1, 1, 0);
-    strcpy(def.fluids[0].fills[0].below, "0.5 + 0.25 * x");
+    own_fills(&def.fluids[0])->below = "0.5 + 0.25 * x";
     World *world = fixture_world(&def);
     State s = fixture_read(world);
     double top[40] = {0};
@@ -118,8 +120,8 @@ static void a_slope_by_formula(void **state)
     world_destroy(world);
 }
 
-/* Between fluids that fill the box: where places out of line leave no neighbour straight behind a face, that
-   is no surface, and the light fluid bears the heavy one, of 4905 Pa, from the start. */
+/* Between fluids filling the box: displaced places without a neighbour straight behind a face are no
+   surface, and the light fluid bears the heavy fluid, 4905 Pa, from the start. */
 static void an_interface_by_formula_is_none_to_the_weight(void **state)
 {
     (void)state;
@@ -133,7 +135,7 @@ static void an_interface_by_formula_is_none_to_the_weight(void **state)
     def.fluids[0].density = 500;
     fixture_block(&def, 0, -0.25, 0, 0, 0.25, 1, 0);
     fixture_block(&def, 1, -0.25, 0, 0, 0.25, 1, 0);
-    strcpy(def.fluids[0].fills[0].below, "0.5 - 0.01 * cos(4 * pi * x)");
+    own_fills(&def.fluids[0])->below = "0.5 - 0.01 * cos(4 * pi * x)";
     World *world = fixture_world(&def);
     State s = fixture_read(world);
     for (size_t i = 0; i < s.count; i++) {

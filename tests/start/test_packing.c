@@ -1,5 +1,6 @@
 /* Pressure next to a round solid in a tank at rest, of a method whose particles carry their density and
-   nothing levels it: sim/start/rest.h. */
+   nothing levels it: sim/start/start.h. */
+#include "tests/lists.h"
 #include "tests/sim/fixture.h"
 
 #include "sim/methods/wcsph/wcsph.h"
@@ -70,7 +71,7 @@ static State of_halves(int left, int right)
     WorldDef def = tank();
     def.fluid_count = 2;
     def.fluids[1] = def.fluids[0];
-    def.fluids[0].fills[0].max[0] = def.fluids[1].fills[0].min[0] = 0;
+    own_fills(&def.fluids[0])->max[0] = own_fills(&def.fluids[1])->min[0] = 0;
     snprintf(def.fluids[1].name, sizeof def.fluids[1].name, "right");
     def.fluids[0].start = left;
     def.fluids[1].start = right;

@@ -1,6 +1,6 @@
-/* Fluid that started in balance, and whose gravity is turned while it runs: by the live key, by the hand, by
-   a motion of the scene. It sloshes to its new floor, gains no energy from nowhere and comes to rest there.
- */
+/* Fluid started in balance, with gravity turned during the run: by the live key, by the hand, by a motion
+   of the scene. The fluid sloshes to the new floor, gains no energy and comes to rest. */
+#include "tests/lists.h"
 #include "tests/sim/fixture.h"
 
 static const double G = 9.81;
@@ -155,8 +155,10 @@ static void a_motion_turns_the_box(void **state)
     (void)state;
     for (int m = 0; m < fixture_methods(); m++) {
         WorldDef def = tank_def(fixture_method_names[m]);
-        def.motions[def.motion_count++] = (Motion){
-            .kind = MOTION_TURN, .axis = {0, 0, -1}, .angle_deg = 90, .start = 0.1, .duration = 0.25};
+        add_motion(
+            &def,
+            (Motion){
+                .kind = MOTION_TURN, .axis = {0, 0, -1}, .angle_deg = 90, .start = 0.1, .duration = 0.25});
         World *world = fixture_world(&def);
         slosh_for(world, 600, true);
         expect_calm(world, def.method, "box turned by the scene", pressure_most[m]);

@@ -2,10 +2,9 @@
 #ifndef SLOSH_TESTS_SURFACE_FIXTURE_H
 #define SLOSH_TESTS_SURFACE_FIXTURE_H
 
-#include "tests/near.h"
+#include "tests/tolerance.h"
 
-#include "sim/points/fields.h"
-#include "sim/points/sampling.h"
+#include "sim/points/points.h"
 
 #include <stdlib.h>
 #include <string.h>

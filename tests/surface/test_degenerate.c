@@ -1,4 +1,4 @@
-/* Fields that have no surface where one is asked for, or a bad one: each ends with its message. */
+/* Fields without a surface at the level, or with a bad surface: each ends with a message. */
 #include "fixture.h"
 
 #include "sim/points/walk.h"
@@ -21,49 +21,49 @@ static void check_refusal(const LevelField *field, double level, const char *say
 }
 
 /* (|x| - 0.5)^2: touches 0 on a sphere and is never below. */
-LANES_INLINE void touching_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+SIMD_INLINE void touching_at(const LevelField *field, const LanePlace *p, LaneSample *out)
 {
     (void)field;
-    const Lanes r = lanes_sqrt(p->x * p->x + p->y * p->y + p->z * p->z), d = r - lanes(0.5F),
-                s = lanes(2) * d / r;
-    *out = (LaneSample){d * d, s * p->x, s * p->y, s * p->z, lanes(4) * d / r};
+    const f8 r = f8_sqrt(p->x * p->x + p->y * p->y + p->z * p->z), d = r - f8_splat(0.5F),
+             s = f8_splat(2) * d / r;
+    *out = (LaneSample){d * d, s * p->x, s * p->y, s * p->z, f8_splat(4) * d / r};
 }
 
 /* -1 or 1: a jump, without a gradient. */
-LANES_INLINE void jumping_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+SIMD_INLINE void jumping_at(const LevelField *field, const LanePlace *p, LaneSample *out)
 {
     (void)field;
-    const Lanes none = lanes(0);
-    *out = (LaneSample){lanes_select(p->x > none, lanes(1), lanes(-1)), none, none, none, none};
+    const f8 none = f8_splat(0);
+    *out = (LaneSample){f8_select(p->x > none, f8_splat(1), f8_splat(-1)), none, none, none, none};
 }
 
-LANES_INLINE void constant_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+SIMD_INLINE void constant_at(const LevelField *field, const LanePlace *p, LaneSample *out)
 {
     (void)field, (void)p;
-    *out = (LaneSample){lanes(3), lanes(0), lanes(0), lanes(0), lanes(0)};
+    *out = (LaneSample){f8_splat(3), f8_splat(0), f8_splat(0), f8_splat(0), f8_splat(0)};
 }
 
 /* The root of x: no number for x < 0. */
-LANES_INLINE void broken_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+SIMD_INLINE void broken_at(const LevelField *field, const LanePlace *p, LaneSample *out)
 {
     (void)field;
-    *out = (LaneSample){lanes_sqrt(p->x), lanes(0.5F) / lanes_sqrt(p->x), lanes(0), lanes(0), lanes(0)};
+    *out = (LaneSample){f8_sqrt(p->x), f8_splat(0.5F) / f8_sqrt(p->x), f8_splat(0), f8_splat(0), f8_splat(0)};
 }
 
 /* A double cone: its cusp has no normal. */
-LANES_INLINE void cone_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+SIMD_INLINE void cone_at(const LevelField *field, const LanePlace *p, LaneSample *out)
 {
     (void)field;
-    const Lanes two = lanes(2), squares = p->x * p->x + p->z * p->z;
-    *out = (LaneSample){squares - p->y * p->y, two * p->x, -two * p->y, two * p->z, lanes(0)};
-    out->bend = two - lanes(8) * (squares - p->y * p->y) / lane_square(out);
+    const f8 two = f8_splat(2), squares = p->x * p->x + p->z * p->z;
+    *out = (LaneSample){squares - p->y * p->y, two * p->x, -two * p->y, two * p->z, f8_splat(0)};
+    out->bend = two - f8_splat(8) * (squares - p->y * p->y) / lane_square(out);
 }
 
 /* x^3: its gradient is zero all over level 0. */
-LANES_INLINE void cubic_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+SIMD_INLINE void cubic_at(const LevelField *field, const LanePlace *p, LaneSample *out)
 {
     (void)field;
-    *out = (LaneSample){p->x * p->x * p->x, lanes(3) * p->x * p->x, lanes(0), lanes(0), lanes(0)};
+    *out = (LaneSample){p->x * p->x * p->x, f8_splat(3) * p->x * p->x, f8_splat(0), f8_splat(0), f8_splat(0)};
 }
 
 LEVEL_KIND(touching)
@@ -122,7 +122,7 @@ static void a_small_part_is_found_and_as_dense_as_asked(void **state)
     surface_points_free(&points);
 }
 
-/* No line can look at all of it; what it would find fills any memory. */
+/* No line covers all of the field; the crossings would fill any memory. */
 static void what_is_too_fine_for_its_bounds_is_refused(void **state)
 {
     (void)state;

@@ -1,8 +1,8 @@
-/* Fields against what they should be: slopes and bends against differences, volumes against what they were
-   made of, the particles' field against the sum over all. */
+/* Fields against references: slopes and bends against differences, volumes against sources, the
+   particles' field against the sum over all. */
 #include "fixture.h"
 
-#include "sim/points/fields.h"
+#include "sim/points/points.h"
 
 static const double low[3] = {-0.5, -0.5, -0.5}, high[3] = {0.5, 0.5, 0.5};
 

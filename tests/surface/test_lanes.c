@@ -1,8 +1,8 @@
 /* Random numbers by counters against the published answers; functions of lanes against the C library;
  * normals. */
-#include "tests/near.h"
+#include "tests/tolerance.h"
 
-#include "sim/points/lanes.h"
+#include "sim/points/philox.h"
 #include "sim/points/points.h"
 
 #include <string.h>
@@ -24,12 +24,12 @@ static void philox_has_the_known_answers(void **state)
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         const PhiloxKey key = {{known[i].key[0], known[i].key[1]}};
         uint32_t word[4];
-        LaneWords wide[4];
+        u8 wide[4];
         for (int k = 0; k < 4; k++) {
             word[k] = known[i].counter[k];
-            wide[k] = (LaneWords){0} + word[k];
+            wide[k] = (u8){0} + word[k];
         }
-        wide[0][3] += 1; /* one lane is another counter */
+        wide[0][3] += 1; /* a lane is a separate counter */
         philox(key, word);
         philox_lanes(key, wide);
         for (int k = 0; k < 4; k++) {
@@ -45,17 +45,17 @@ static void functions_of_lanes_are_the_c_librarys(void **state)
 {
     (void)state;
     for (int i = 1; i < 4000; i++) {
-        Lanes sine, cosine;
+        f8 sine, cosine;
         const float x = (float)i / 4000, turns = (float)(i - 2000) / 300;
         const double angle = 2 * M_PI * (double)turns;
-        check_near((double)lanes_log(lanes(x))[i % LANES], log((double)x), 2e-7 * fmax(1, -log((double)x)),
+        check_near((double)f8_log(f8_splat(x))[i % LANES], log((double)x), 2e-7 * fmax(1, -log((double)x)),
                    "log");
-        lanes_turn(lanes(turns), &sine, &cosine);
+        f8_sincos(f8_splat(turns), &sine, &cosine);
         check_near((double)sine[i % LANES], sin(angle), 2e-6,
                    "sine"); /* of a float's rounding of 6.7 turns */
         check_near((double)cosine[i % LANES], cos(angle), 2e-6, "cosine");
     }
-    check_near((double)lanes_log(lanes(0x1p-24F))[0], log(0x1p-24), 1e-6, "log");
+    check_near((double)f8_log(f8_splat(0x1p-24F))[0], log(0x1p-24), 1e-6, "log");
 }
 
 /* Mean, variance and fourth moment of 2^19 numbers, within four standard errors of 0, 1, 3. */
@@ -65,8 +65,8 @@ static void noise_is_normal_and_white(void **state)
     enum { BLOCKS = 1 << 15 };
     double mean[3] = {0}, square[3] = {0}, fourth[3] = {0}, mixed = 0, count = 8.0 * BLOCKS;
     for (uint32_t i = 0; i < BLOCKS; i++) {
-        LaneWords word[4] = {(LaneWords){0, 1, 2, 3, 4, 5, 6, 7} + 8 * i, {0}, {0}, {0}};
-        Lanes normal[3];
+        u8 word[4] = {(u8){0, 1, 2, 3, 4, 5, 6, 7} + 8 * i, {0}, {0}, {0}};
+        f8 normal[3];
         philox_lanes(philox_key(1), word);
         philox_normal_lanes(word, normal);
         for (int lane = 0; lane < LANES; lane++)

@@ -1,9 +1,9 @@
-/* Points a second of each sampler on each kind of field, and how even a large set is. A few points under
-   ctest, to see that all of it runs; for figures SLOSH_POINTS=1e7 build/release/tests/test_surface rate on a
-   quiet machine: by the clock, and by the time that processors worked, times two. */
+/* Points a second of each sampler on each kind of field, and evenness of large sets. Few points under
+   ctest, as a smoke test. For figures SLOSH_POINTS=1e7 build/release/tests/test_surface rate on a quiet
+   machine: by the clock, and by processor time, times two. */
 #include "fixture.h"
 
-#include "sim/points/fields.h"
+#include "sim/points/points.h"
 #include "slosh/world.h"
 
 #include <stdio.h>

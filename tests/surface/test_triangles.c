@@ -1,9 +1,7 @@
 /* Points on the triangles of marching cubes: uniform, near the surface, not on what closes the mesh. */
 #include "fixture.h"
 
-#include "sim/points/fields.h"
 #include "sim/points/points.h"
-#include "sim/points/sampling.h"
 
 static SurfaceRequest on_triangles(const LevelField *field, double area, double points)
 {
@@ -72,7 +70,7 @@ static void threads_make_no_difference(void **state)
     surface_points_free(&points[1]);
 }
 
-/* Of a field as fine as may be; and of one whose axes differ, each by its own. */
+/* Of a field at the finest resolution; and of a field with different axes, each scaled. */
 static void cells_are_as_fine_as_memory_allows(void **state)
 {
     (void)state;
@@ -90,7 +88,7 @@ static void cells_are_as_fine_as_memory_allows(void **state)
                  values = (double)size[0] * size[1] * size[2];
     assert_true(times > 40 && values <= 0x1p28 && values > 0x1p28 / 1.4);
     check_near(cell[2] / (times * fine.march[2]), 1, 2e-3, "larger cells");
-    request.cell = 1e-4; /* stays: who named it is told */
+    request.cell = 1e-4; /* stays: errors name the user's file */
     assert_true(triangles_grid(&request, 1, size, cell) == 1 && size[0] == 10003);
     assert_true(level_volume(&volume, VOLUME_TRILINEAR, &flat, NULL));
     request = on_triangles(&flat, 1, 1);

@@ -25,11 +25,11 @@ static Evenness evenness_from_equator(const LevelField *field, float step, uint3
     walk.reach = 6 * step;
     walk.key = philox_key(3);
     walk.count = steps;
-    field->kind->walk[lanes_wide()](&walk, 0, WALKERS);
+    field->kind->walk[simd_wide()](&walk, 0, WALKERS);
     walk.first = steps;
     walk.count = 1;
     walk.out = out;
-    field->kind->walk[lanes_wide()](&walk, 0, WALKERS);
+    field->kind->walk[simd_wide()](&walk, 0, WALKERS);
     const Evenness even = evenness(out, WALKERS, 1, patch, 100);
     free(place);
     free(taken);
@@ -54,8 +54,8 @@ static void walks_become_uniform(void **state)
                  bound);
 }
 
-/* One step from (R, 0, 0): the tangent leads outwards by step^2 / R on average, which the drift takes back.
-   All places are close enough here, so Newton's method does nothing. */
+/* A step from (R, 0, 0): the tangent leads outwards by step^2 / R on average, corrected by the drift. All
+   places are close enough here, so Newton's method is idle. */
 static void the_drift_keeps_walkers_at_their_distance(void **state)
 {
     (void)state;
@@ -74,7 +74,7 @@ static void the_drift_keeps_walkers_at_their_distance(void **state)
     walk.out = out;
     for (int i = 0; i < WALKERS; i++)
         place[0][i] = (float)radius;
-    sphere.kind->walk[lanes_wide()](&walk, 0, WALKERS);
+    sphere.kind->walk[simd_wide()](&walk, 0, WALKERS);
     double sum = 0, squares = 0;
     for (int i = 0; i < WALKERS; i++) {
         const float *p = out[i].position;
@@ -88,12 +88,12 @@ static void the_drift_keeps_walkers_at_their_distance(void **state)
 }
 
 /* A sphere by the root of the distance, over which Newton's method leaps from d to -d for ever. */
-LANES_INLINE void leaping_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+SIMD_INLINE void leaping_at(const LevelField *field, const LanePlace *p, LaneSample *out)
 {
     (void)field;
-    const Lanes r = lanes_sqrt(p->x * p->x + p->y * p->y + p->z * p->z), d = lanes(0.5F) - r;
-    const Lanes root = lanes_sqrt(lanes_most(lanes_abs(d), lanes(1e-9F))), slope = lanes(-0.5F) / root / r;
-    *out = (LaneSample){lanes_signed(root, d), slope * p->x, slope * p->y, slope * p->z, lanes(2) * slope};
+    const f8 r = f8_sqrt(p->x * p->x + p->y * p->y + p->z * p->z), d = f8_splat(0.5F) - r;
+    const f8 root = f8_sqrt(greater(f8_abs(d), f8_splat(1e-9F))), slope = f8_splat(-0.5F) / root / r;
+    *out = (LaneSample){f8_copysign(root, d), slope * p->x, slope * p->y, slope * p->z, f8_splat(2) * slope};
 }
 
 LEVEL_KIND(leaping)
@@ -115,7 +115,7 @@ static double part_taken(bool no_bisection, double *worst)
     walk.out = out;
     for (int i = 0; i < WALKERS; i++)
         place[0][i] = 0.5F;
-    field.kind->walk[lanes_wide()](&walk, 0, WALKERS);
+    field.kind->walk[simd_wide()](&walk, 0, WALKERS);
     double sum = 0;
     for (int i = 0; i < WALKERS; i++)
         sum += taken[i];
@@ -172,7 +172,7 @@ static void a_set_is_uniform_and_as_dense_as_asked(void **state)
     check_set(&torus, torus_area, torus_patch, 0.05);
 }
 
-/* Several sheets of it are in each counting sphere, of which the known places tell nothing. */
+/* Several sheets are in each counting sphere, without information from the known places. */
 static void what_is_folded_finely_is_as_dense_as_asked(void **state)
 {
     (void)state;
@@ -208,7 +208,7 @@ static void the_same_seed_gives_the_same_bits(void **state)
         surface_points_free(&points[k]);
 }
 
-/* Both instruction sets. */
+/* Each instruction set. */
 static void lanes_have_the_same_bits_at_any_width(void **state)
 {
     (void)state;
@@ -216,7 +216,7 @@ static void lanes_have_the_same_bits_at_any_width(void **state)
     SurfacePoint out[2][WALKERS * STEPS];
     const double low[3] = {-1, -1, -1}, high[3] = {1, 1, 1};
     const LevelField field = level_gyroid(low, high, 1);
-    if (!lanes_wide())
+    if (!simd_wide())
         skip();
     for (int wide = 0; wide < 2; wide++) {
         float place[3][WALKERS] = {{0}};
@@ -236,14 +236,14 @@ static void lanes_have_the_same_bits_at_any_width(void **state)
 /* Three balls apart from each other, the greater of their values. */
 static const float balls[3][4] = {{-0.5F, 0, 0, 0.4F}, {0.5F, 0.2F, 0, 0.3F}, {0.6F, -0.6F, 0.3F, 0.1F}};
 
-LANES_INLINE void three_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+SIMD_INLINE void three_at(const LevelField *field, const LanePlace *p, LaneSample *out)
 {
     (void)field;
     for (int k = 0; k < 3; k++) {
-        const Lanes x = p->x - lanes(balls[k][0]), y = p->y - lanes(balls[k][1]),
-                    z = p->z - lanes(balls[k][2]);
-        const Lanes r = lanes_sqrt(x * x + y * y + z * z), i = lanes(1) / r;
-        const LaneSample s = {lanes(balls[k][3]) - r, -x * i, -y * i, -z * i, lanes(-2) * i};
+        const f8 x = p->x - f8_splat(balls[k][0]), y = p->y - f8_splat(balls[k][1]),
+                 z = p->z - f8_splat(balls[k][2]);
+        const f8 r = f8_sqrt(x * x + y * y + z * z), i = f8_splat(1) / r;
+        const LaneSample s = {f8_splat(balls[k][3]) - r, -x * i, -y * i, -z * i, f8_splat(-2) * i};
         if (k == 0)
             *out = s;
         else
@@ -323,7 +323,7 @@ static void a_walk_that_does_not_move_is_said(void **state)
     surface_points_free(&points);
 }
 
-/* A slice whose points take their values from another field; and appended to what is there. */
+/* A slice with point values from a second field; and appended to earlier points. */
 static void points_take_their_value_from_a_field(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Surface tension by curvature against theory: pressure in a drop, its swing, its angle on a floor; what it
- * keeps. */
+/* Surface tension by curvature against theory: pressure in a drop, oscillation, contact angle on a floor;
+   invariants. */
 #include "tests/sim/fixture.h"
 
 #include "sim/def/fluids.h"
@@ -209,8 +209,8 @@ static double angle_of(double height, double area)
     return low * 180 / M_PI;
 }
 
-/* A drop that starts as a half disc on a floor of that angle, after so many steps: its angle, in the mean
-   over the last thousand. It does not walk. */
+/* A drop starting as a half disc on a floor with the angle, after a number of steps: the angle, in the
+   mean over the last thousand. The drop does not walk. */
 static double angle_after(double angle, int steps)
 {
     WorldDef def = drop(2, 0.006, 0, 1);

@@ -1,6 +1,6 @@
 /* The box becomes smaller under a hand: by every method and backend none is lost, the fluid stays as dense
    and as calm as it was, and the session is replayed and undone to the same bits. */
-#include "tests/past/past_rig.h"
+#include "tests/history/history_rig.h"
 
 #define POOL(size, deep, spacing)                                                                            \
     "box: {size: " size "}\nparticles: {spacing: " spacing "}\n"                                             \
@@ -41,13 +41,13 @@ typedef struct Seen {
 
 static const WorldDef *def_of(const Rig *rig)
 {
-    return &rig->simulator->scene.world;
+    return &rig->simulator->run.scene.world;
 }
 
 /* All are there, and in the box. */
 static void look(const Rig *rig, size_t count, const char *name, Seen *seen)
 {
-    World *world = rig->simulator->world;
+    World *world = rig->simulator->run.world;
     const double *size = def_of(rig)->box_size;
     WorldGauge gauge;
     WorldInfo info;

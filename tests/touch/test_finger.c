@@ -1,5 +1,5 @@
-/* A finger in the fluid: what it gives is force times time, on every backend and with every method; it upsets
-   no sentinel; it is part of the saved state. */
+/* A finger in the fluid: the impulse is force times time, on every backend and with every method; no
+   sentinel trouble; part of the saved state. */
 #include "tests/touch/touch_rig.h"
 
 #include "app/run/offscreen.h"
@@ -42,8 +42,7 @@ static void mean_velocity(World *world, double mean[3])
         mean[k] = sums.momentum[k] / sums.mass;
 }
 
-/* dp/dt = rate (M V - p), where all of the block is held alike: what the fluid does to itself gives nothing.
- */
+/* dp/dt = rate (M V - p), with all of the block held alike: internal forces cancel. */
 static void a_stir_gives_force_times_time(void **state)
 {
     (void)state;
@@ -298,8 +297,7 @@ static void it_reaches_across_periodic_sides(void **state)
     }
 }
 
-/* What comes is of the fluid that was asked for, goes down at the speed that was, and is part of the saved
-   state. */
+/* Poured fluid is the requested fluid at the requested speed, and part of the saved state. */
 static void what_is_poured_comes_with_every_method(void **state)
 {
     (void)state;
@@ -337,7 +335,7 @@ static void what_is_poured_comes_with_every_method(void **state)
                          (double)after.emitted);
             State now = fixture_read(world);
             for (size_t i = 0; i < now.count; i++)
-                if (i >= before.count) /* they stand by their ids */
+                if (i >= before.count) /* ordered by ids */
                     assert_true(now.fluid[i] == 1 && now.velocity[4 * i + 1] < -1 &&
                                 fabsf(now.position[4 * i] - 0.6F) < 0.2F);
             fixture_free(&now);

@@ -1,6 +1,6 @@
 /* Solids that are moved, turned, put and taken out while a session runs: recorded, replayed, undone; pushed
    through fluid and into walls they lose no particle. */
-#include "tests/past/past_rig.h"
+#include "tests/history/history_rig.h"
 
 #include "sim/solids/solid.h"
 
@@ -46,7 +46,7 @@ static void put(Rig *rig, int like, double x)
 static const WorldDef *def_of(Rig *rig)
 {
     rig_turn(rig);
-    return &rig->simulator->scene.world;
+    return &rig->simulator->run.scene.world;
 }
 
 /* All are there, finite, in the box and in no solid. */
@@ -54,9 +54,9 @@ static void none_is_lost(Rig *rig, size_t count, const char *name)
 {
     const WorldDef *def = def_of(rig);
     WorldInfo info;
-    world_info(rig->simulator->world, &info);
+    world_info(rig->simulator->run.world, &info);
     float *x = malloc(4 * (info.count + 1) * sizeof *x);
-    assert_true(x && world_read(rig->simulator->world, &(ParticleArrays){.position = x}));
+    assert_true(x && world_read(rig->simulator->run.world, &(ParticleArrays){.position = x}));
     if (info.count != count || info.lost > 0 || info.trouble.ended)
         fail_msg("%s: %zu of %zu particles, %zu lost; %s", name, info.count, count, (size_t)info.lost,
                  step_trouble_words(info.trouble.what));
@@ -117,8 +117,7 @@ static void it_is_replayed_and_undone(void **state)
     }
 }
 
-/* Down to the floor and against it, into a corner and out of it, with a box beside it that is put there: with
-   every method. */
+/* Down to the floor and against the floor, into a corner and out, beside a new box: with every method. */
 static void pushed_into_walls_it_loses_none(void **state)
 {
     (void)state;
@@ -200,7 +199,7 @@ static void the_box_changes_its_size(void **state)
     }
 }
 
-/* It comes where it shall be, and no faster than it may. */
+/* The solid reaches the target within the speed limit. */
 static void it_follows_the_hand(void **state)
 {
     (void)state;
@@ -222,8 +221,8 @@ static void it_follows_the_hand(void **state)
     assert_false(solid_hand_move(&hand, (double[3]){NAN, 0, 0}, turn, 2, 1, 10, 3));
 }
 
-/* Of one step; one that is not there; a new start has the scene's own; one that is put stands above the
- * fluid. */
+/* In a single step; a missing solid; a new start has the scene's solids; a new solid is placed above the
+   fluid. */
 static void commands_of_one_step(void **state)
 {
     (void)state;

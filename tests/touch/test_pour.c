@@ -1,6 +1,6 @@
 /* Fluid poured in a session, in scenes that have no emitter: recorded, replayed, undone; a full world says so
    once. */
-#include "tests/past/past_rig.h"
+#include "tests/history/history_rig.h"
 
 #define POOL(size, deep)                                                                                     \
     "box: {size: " size "}\n"                                                                                \
@@ -40,11 +40,11 @@ static WorldInfo info_of(Rig *rig)
 {
     WorldInfo info;
     rig_turn(rig);
-    world_info(rig->simulator->world, &info);
+    world_info(rig->simulator->run.world, &info);
     return info;
 }
 
-/* From frame 2 to frame 6 from a place that moves, at first of one fluid, then of the other. */
+/* From frame 2 to frame 6 from a moving place, first of the first fluid, then of the second. */
 static void stroke(Rig *rig, uint64_t hash[FRAMES + 1])
 {
     rig_ready(rig);
@@ -83,9 +83,8 @@ static void it_is_replayed_and_undone(void **state)
     }
 }
 
-/* Of what waits for one step the last place holds; what begins and ends before it is nothing; a new start has
- * none.
- */
+/* Among commands waiting for a step the last place wins; a stroke that begins and ends before the step is
+   void; a new start has no finger. */
 static void commands_of_one_step(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* Touch in a session: its commands apply in their order, a recording has the same bits again, going back
    undoes, a new start forgets. */
-#include "tests/past/past_rig.h"
+#include "tests/history/history_rig.h"
 
 #define BOX                                                                                                  \
     "box: {size: [1, 1, 1]}\n"                                                                               \
@@ -29,7 +29,7 @@ static bool touched(Rig *rig)
 {
     WorldInfo info;
     rig_turn(rig);
-    world_info(rig->simulator->world, &info);
+    world_info(rig->simulator->run.world, &info);
     return info.touched;
 }
 
@@ -67,7 +67,7 @@ static void it_is_replayed_and_undone(void **state)
     }
 }
 
-/* What the recording says is what moves the fluid: without its touch the bits are others. */
+/* The recording moves the fluid: without touch the bits differ. */
 static void the_recording_has_it(void **state)
 {
     (void)state;
@@ -102,8 +102,8 @@ static size_t commands_of(Rig *rig)
     return rig->simulator->recording.count;
 }
 
-/* Of what waits for one step: a place is that of the last one, a stroke that ends before it leaves nothing,
-   and a finger that comes back elsewhere does not draw the fluid along on its way. */
+/* Among commands waiting for a step: the last place wins, a stroke that ends before the step leaves no
+   trace, and a finger returning elsewhere does not draw fluid along the way. */
 static void commands_of_one_step(void **state)
 {
     (void)state;
@@ -120,7 +120,7 @@ static void commands_of_one_step(void **state)
     rig_step(&rig);
     assert_true(touched(&rig) && commands_of(&rig) == 3);
     WorldState saved = {.count = 0};
-    must(world_save(rig.simulator->world, &saved, &error));
+    must(world_save(rig.simulator->run.world, &saved, &error));
     assert_true(saved.numbers.finger.point[0] == -0.4);
     world_state_free(&saved);
     touch(&rig, FINGER_STIR, 0.3);
@@ -162,8 +162,8 @@ static void a_new_start_has_no_finger(void **state)
     rig_close(&rig);
 }
 
-/* A jump while it is in the fluid lifts it, and so does what the user does in the middle of an old stroke:
-   its end is of a future that will not be. */
+/* A jump with the finger in the fluid lifts the finger, and user actions in the middle of an old stroke
+   too: the stroke's end is cut off. */
 static void no_finger_stays_behind(void **state)
 {
     (void)state;
@@ -188,8 +188,8 @@ static void no_finger_stays_behind(void **state)
     assert_true(replay("a.rec") > 0);
 }
 
-/* A recorded stroke that is done again comes to its end, also where one has looked back; who acts in the
-   middle of it has no foreign finger in the fluid. */
+/* A replayed stroke is completed, also after a look back; user actions in the middle leave no foreign
+   finger in the fluid. */
 static void a_session_that_is_done_again(void **state)
 {
     (void)state;

@@ -1,7 +1,7 @@
 /* The touch tool: where the finger is under the mouse, when it is sent, and how a recording writes it. */
 #include "tests/sim/fixture.h"
 
-#include "app/input/touch.h"
+#include "app/input/input.h"
 #include "app/run/recording/recording.h"
 
 static const double ahead[3] = {0, 0, -1};
@@ -29,7 +29,7 @@ static void it_keeps_the_depth_of_the_press(void **state)
     assert_true(asks(&tool, &finger) && finger.way == (double)FINGER_PULL);
     assert_true(fabs(finger.at[0] - 0.4) < 1e-12 && fabs(finger.at[1] - 0.5) < 1e-12 &&
                 fabs(finger.at[2] - 0.7) < 1e-12 && fabs(finger.radius - 0.5) < 1e-12);
-    assert_false(touch_tool_move(&tool, &beside, ahead, 3)); /* stays where it was */
+    assert_false(touch_tool_move(&tool, &beside, ahead, 3)); /* stays in place */
     assert_false(asks(&tool, &finger));
     assert_true(touch_tool_move(&tool, &ray, ahead, 2) && tool.at[2] == 0);
 }
@@ -50,8 +50,7 @@ static void it_is_sent_when_it_changes(void **state)
     assert_false(asks(&tool, &finger));
 }
 
-/* A drag that time jumps under does nothing more: not even its end is a command, which would cut off what
-   comes after. */
+/* A drag during a time jump ends silently: an end command would cut off the future. */
 static void a_jump_ends_it(void **state)
 {
     (void)state;
@@ -67,7 +66,7 @@ static void a_jump_ends_it(void **state)
     touch_tool_press(&tool, FINGER_STIR, (double[3]){0, 0, 0});
     assert_true(asks(&tool, &finger));
     touch_tool_travel(&tool, 4, false);
-    touch_tool_release(&tool, false); /* nothing comes after: its end is said, whoever has lifted it */
+    touch_tool_release(&tool, false); /* no later states: the end is sent, whoever lifted the finger */
     assert_true(asks(&tool, &finger) && finger.way == (double)FINGER_NONE);
     touch_tool_travel(&tool, 4, true);
     touch_tool_press(&tool, FINGER_STIR, (double[3]){0, 0, 0});

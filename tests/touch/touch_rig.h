@@ -1,4 +1,4 @@
-/* Small worlds that are touched, on every backend and with every method that it has. */
+/* Small worlds with touch, on every backend and with all supported methods. */
 #ifndef SLOSH_TOUCH_RIG_H
 #define SLOSH_TOUCH_RIG_H
 
@@ -15,7 +15,7 @@ static const struct {
 };
 enum { TOUCH_FORMS = sizeof touch_forms / sizeof *touch_forms };
 
-/* A block that hangs free in a box, without gravity: nothing but the finger moves it. */
+/* A free block in a box, without gravity: only the finger moves the block. */
 static inline WorldDef touch_def(int form, int dimensions)
 {
     WorldDef def = fixture_def(1.6, 1.6, 1.6);

@@ -1,5 +1,7 @@
 """The scripts that people run can be read by their shell, each figure of tools/figures is drawn by a function, and the faults
 of tools/mutants suit the tree."""
+import importlib.machinery
+import importlib.util
 import pathlib
 import re
 import subprocess
@@ -24,6 +26,16 @@ class Scripts(unittest.TestCase):
         names = re.search(r'^figures=\((.*)\)$', text, re.M)[1].split()
         functions = [name.replace('_', '-') for name in re.findall(r'^(paper\w+|splat\w+)\(\)', text, re.M)]
         self.assertEqual(sorted(names), sorted(functions))
+
+    def test_tests_that_scripts_and_lists_name(self):
+        """tools/test runs a few tests by name; the lists of tests/CMakeLists.txt give tests their order and labels."""
+        run = re.findall(r'tests/test_(\w+) (\w+)', (ROOT / 'tools/test').read_text())
+        lists = re.findall(r'^set\((?:first|unsanitized|alone|long) (.*?)\)', (ROOT / 'tests/CMakeLists.txt').read_text(), re.M | re.S)
+        listed = [tuple(name.split('.')) for text in lists for name in text.split()]
+        self.assertGreater(len(run), 5)
+        self.assertGreater(len(listed), 40)
+        self.assertEqual([(folder, name) for folder, name in [*run, *listed]
+                          if not any(ROOT.glob(f'tests/{folder}/test_{name}.*'))], [])
 
 
 class Mutants(unittest.TestCase):
@@ -52,6 +64,37 @@ class Mutants(unittest.TestCase):
             self.assertEqual(code, 2, old)
             self.assertIn(words, said)
         self.assertIn('the second of its kind', self.check(2 * self.ENTRY)[1])
+
+
+class Words(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        loader = importlib.machinery.SourceFileLoader('words', str(ROOT / 'tools/words'))
+        cls.words = importlib.util.module_from_spec(importlib.util.spec_from_loader('words', loader))
+        sys.dont_write_bytecode = True
+        loader.exec_module(cls.words)
+
+    def long(self, text):
+        return len(list(self.words.long_sentences(text)))
+
+    def test_sentences(self):
+        thirty = 'word ' * 29
+        self.assertEqual((self.long(thirty + 'end.'), self.long(thirty + 'the end.')), (0, 1))
+        self.assertEqual(self.long(thirty + 'end. Another one'), 0)
+        self.assertEqual(self.long(thirty + '+ x i j k\n\nthe end'), 0)  # a formula; a paragraph
+        page = self.words.prose(f'# Title\n\n```sh\n{thirty} the end\n```\n| {thirty} | {thirty} |\n{thirty} `a b`, the end')
+        self.assertEqual(self.long(page), 1)
+
+    def test_texts_of_c(self):
+        code = '/* "no" */ puts("one "\n     "text"); // "no"\nputs("set grid \'$x\'");'
+        self.assertEqual([text for _, text in self.words.texts(code)], ['one text'])
+
+    def test_names(self):
+        self.assertEqual(self.words.parts_of('cpu_feelDrift2_AT'), ['cpu', 'feel', 'drift', 'at'])
+
+    def test_comments_at_ends_of_lines_stand_alone(self):
+        self.assertEqual([said.strip() for _, said in self.words.comments('a; // one\nb; // two\n// three\n// four')],
+                         ['one', 'two', 'three\n four'])
 
 
 if __name__ == '__main__':

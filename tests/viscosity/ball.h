@@ -52,7 +52,7 @@ static inline void ball_make(Ball *ball, int dimensions, double speed, double tu
     ball->initial = (InitialState){.count = n, .position = ball->x, .velocity = ball->v};
 }
 
-/* A ball that is thrown by 5 m/s falls as one at rest: what a step changes is little beside its speed. */
+/* A ball thrown at 5 m/s falls like a ball at rest: changes per step are small beside the speed. */
 static inline void ball_check_thrown(const char *method, const char *backend)
 {
     static Ball ball;
@@ -81,8 +81,8 @@ static inline void ball_check_thrown(const char *method, const char *backend)
     world_destroy(world);
 }
 
-/* What turns and is thick, with the tolerance that a user gets, in a turn. Friction alone holds it
-   together: as much of it as a step takes over from the one before pulls to where the middle was then. */
+/* A turning thick body, with a user's tolerance, through a turn. Friction alone holds the body together:
+   friction taken over from the step before pulls to the old position of the middle. */
 static inline void ball_check_turn(const char *method, const char *backend)
 {
     static Ball ball;
@@ -107,8 +107,8 @@ static inline void ball_check_turn(const char *method, const char *backend)
     world_destroy(world);
 }
 
-/* Three steps of 1 s with 1e5 Pa s: what moves at random loses its energy; momenta stay, as far as the digits
-   of friction, some 1e4 times inertia, let them. */
+/* Three steps of 1 s with 1e5 Pa s: random motion loses energy; momenta stay within the digits of
+   friction, some 1e4 times inertia. */
 static inline void ball_check_long_step(const char *method, const char *backend)
 {
     static Ball ball;

@@ -1,12 +1,12 @@
-/* Implicit viscosity, with all methods: against theory, against a dense solution in double precision, against
-   what an explicit step does, and that no step is too long for it. */
+/* Implicit viscosity, with all methods: against theory, a dense solution in double precision, and
+   explicit steps; and without a limit of the step. */
 #include "tests/viscosity/ball.h"
 
 #include "sim/cpu/cpu.h"
 #include "sim/def/fluids.h"
-#include "sim/methods/shared/viscosity.h"
+#include "sim/methods/shared/terms.h"
 #include "sim/methods/wcsph/wcsph.h"
-#include "sim/step/iterate.h"
+#include "sim/step/substep.h"
 #include "sim/step/world.h"
 
 enum { METHODS = sizeof fixture_method_names / sizeof *fixture_method_names };
@@ -17,7 +17,7 @@ static const char *const *const method_names = fixture_method_names;
 
 enum { WAVE = 24, COLUMNS = 8 };
 
-/* What is left of v_x = V sin(k y) after so many steps of `times` what an explicit one stands. */
+/* The rest of v_x = V sin(k y) after a number of steps of `times` the explicit limit. */
 static double wave_left(WorldDef *def, double times, int steps, double *of_theory)
 {
     static float x[3 * WAVE * COLUMNS], v[3 * WAVE * COLUMNS];
@@ -86,7 +86,7 @@ static void what_turns_keeps_turning(void **state)
         ball_check_turn(method_names[m], "cpu");
 }
 
-/* The mean speed that a force along two plates has driven a fluid to in half the time that it takes. */
+/* The mean speed of a fluid driven by a force along two plates, after half the relaxation time. */
 static double driven_speed(const char *method, double tolerance)
 {
     enum { ACROSS = 24, WIDE = 8 };
@@ -125,7 +125,7 @@ static void what_is_left_does_not_add_up(void **state)
     }
 }
 
-/* What the random part of it is loses all its energy, what turns none. */
+/* The random part loses all energy, the rotation none. */
 static void momentum_stays(void **state)
 {
     (void)state;
@@ -180,7 +180,7 @@ static void a_short_step_is_an_explicit_one(void **state)
     ball_make(&ball, 3, 1, 1);
     def.initial = &ball.initial;
     def.sound_speed = 0.01;
-    def.dt = 2e-5; /* a thousandth of what an explicit one stands */
+    def.dt = 2e-5; /* a thousandth of the explicit limit */
     wcsph_def(&def)->viscosity_form = VISCOSITY_RADIAL;
     snprintf(wcsph_def(&def)->kernel, sizeof wcsph_def(&def)->kernel, "wendland_c2");
     double *implicit = change_of(&def, &ball, &count);
@@ -233,7 +233,7 @@ static double viscosity_of(const Cpu *cpu, size_t i)
     return (double)cpu->now.viscosity[i];
 }
 
-/* c_ij of sim/methods/shared/viscosity.h, and x_ij; 0 where they are too far. */
+/* c_ij of sim/methods/shared/terms.h, and x_ij; 0 where they are too far. */
 static double coupling(const World *world, const Lattice *lattice, size_t i, size_t j, double d[3])
 {
     const Cpu *cpu = world->state;
@@ -303,8 +303,8 @@ static void dense_solve(Dense *dense)
     }
 }
 
-/* The right side is what is left of no change; the iterations begin with the friction of the step before:
-   here with one that holds the fluid. */
+/* The right side is the residual of no change; iterations begin with the friction of the step before:
+   here with a holding friction. */
 static void begin_with_nothing(const World *world, const PassInput *input)
 {
     Cpu *cpu = world->state;
@@ -365,9 +365,7 @@ static void as_a_dense_solution(void **state)
 
 /* --- what a step begins with --- */
 
-/* What falls goes on as it did: a solver that begins with that makes hardly more than the one iteration that
- * there always is.
- */
+/* Falling fluid continues: a solver starting from the fall needs hardly more than the minimal iteration. */
 static void what_goes_on_needs_one_iteration(void **state)
 {
     (void)state;
@@ -394,7 +392,7 @@ static void what_goes_on_needs_one_iteration(void **state)
     }
 }
 
-/* --- what a run needs --- */
+/* --- needs of a run --- */
 
 static WorldDef drop_def(const char *method)
 {

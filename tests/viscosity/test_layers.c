@@ -1,6 +1,6 @@
-/* Two layers of which one is ten times as thick as the other, between a floor that holds and a lid that moves
-   (Couette): one shear stress, so that the speed has its kink where they meet, at 10 / 11 of the lid's. And
-   where one has no viscosity nothing is dragged along. */
+/* Two layers, ten times as thick below or above, between a no-slip floor and a moving lid (Couette). The
+   shear stress is constant, so that the speed has a kink at the interface, at 10 / 11 of the lid's speed.
+   And a layer without viscosity is not dragged along. */
 #include "tests/sim/fixture.h"
 
 #include "sim/def/fluids.h"
@@ -46,7 +46,7 @@ static WorldDef layers(const Tried *tried, double low, double high)
     wcsph_def(&def)->viscosity_form = tried->form;
     const double kink = LID * high / (low + high);
     for (size_t i = 0; i < ROWS * COLUMNS; i++) {
-        const double y = ((double)(i / COLUMNS) + 0.5) / HALF; /* 1 where they meet */
+        const double y = ((double)(i / COLUMNS) + 0.5) / HALF; /* 1 at the interface */
         x[3 * i] = (float)(SPACING * ((double)(i % COLUMNS) + 0.5 - 0.5 * COLUMNS));
         x[3 * i + 1] = (float)(SPACING * HALF * y);
         v[3 * i] = (float)(y < 1 ? kink * y : kink + (LID - kink) * (y - 1));

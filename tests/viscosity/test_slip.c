@@ -1,5 +1,4 @@
-/* Friction next to walls that let fluid slip: what a wall's images do is what fluid itself would do that
-   stands and moves in the mirror. */
+/* Friction next to slip walls: a wall's images act like mirrored fluid. */
 #include "tests/sim/fixture.h"
 
 #include "sim/def/fluids.h"
@@ -39,15 +38,15 @@ static WorldDef def_of(const Tried *tried, double size)
     def.viscosity_solver = tried->solver;
     def.viscosity_tolerance = 1e-6;
     def.viscosity_iterations = 1000;
-    pbf_def(&def)->tolerance = 1; /* moves nothing */
+    pbf_def(&def)->tolerance = 1; /* no motion */
     wcsph_def(&def)->viscosity_form = tried->form;
     wcsph_def(&def)->artificial_viscosity = 0;
     return def;
 }
 
-/* Two fluids out of order, a particle in each cell of a block in the low corner, a quarter of a spacing off
-   its walls at least, where Morris's friction is a mirror's; then copies of it, which
-   stand about `corner`, mirrored across all the sides that `copy` says. */
+/* Two disordered fluids, a particle in each cell of a block in the low corner, at least a quarter of a
+   spacing off the walls, where Morris's friction is a mirror's. Then copies about `corner`, mirrored
+   across all sides in `copy`. */
 static size_t fill(const Tried *tried, const double corner[3], int copies, float *x, float *v, uint8_t *fluid)
 {
     const int layers = tried->dimensions == 3 ? SIDE : 1;
@@ -70,8 +69,8 @@ static size_t fill(const Tried *tried, const double corner[3], int copies, float
     return count * (size_t)copies;
 }
 
-/* How far a step in the corner of a box is from that of four or eight such corners in the middle of a large
-   one; `changed`: what friction changes at most. */
+/* Difference of a step in a box's corner from four or eight such corners in the middle of a large box;
+   `changed`: friction's greatest effect. */
 static double off_mirror(const Tried *tried, int slip, double *changed)
 {
     static float x[3 * MOST * COPIES], v[3 * MOST * COPIES];

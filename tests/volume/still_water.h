@@ -5,9 +5,9 @@
 #include <math.h>
 #include <string.h>
 
-/* The way in still water between two corners, m, of what is seen in a direction (unit) from a place on its
-   top or a side: bent by Snell's law, and mirrored by sides that it meets at less than arcsin(1 / 1.333) to
-   their plane. `sides`: how many mirrored it. */
+/* The path in still water between two corners, m, seen along a direction (unit) from a place on the top
+   or a side. Bent by Snell's law, and mirrored by sides met at less than arcsin(1 / 1.333) to the side's
+   plane. `sides`: number of reflections. */
 static inline double way_in_water(const double low[3], const double high[3], const double entry[3],
                                   const double to[3], int *sides)
 {

@@ -1,8 +1,8 @@
-/* Grids of volumes: where they lie, what does not fit; and the field as shaders sample it. */
+/* Grids of volumes: positions, limits; and the field as sampled by shaders. */
 #include "tests/render/volume_fixture.h"
 
 #include "render/frame/view.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -284,7 +284,7 @@ static void memory_that_is_short_is_said_before_a_picture(void **state)
     }
     view_destroy(view);
     assert_true(texture > 0 && sums > 0);
-    gl_debug_install(); /* forgets what the driver said of it */
+    gl_debug_install(); /* forgets the driver's answer */
 }
 
 int main(void)

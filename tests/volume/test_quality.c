@@ -1,10 +1,9 @@
-/* What view.quality changes: the def that is drawn, never one that says otherwise, and no state. */
+/* Effects of view.quality: the drawn def, never an explicit setting, and no state. */
 #include "tests/render/fixture.h"
 
-#include "app/scene/keys.h"
 #include "app/scene/scene.h"
 #include "render/views/volume/volume.h"
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 #include "tests/scene/scene_text.h"
 
 static ViewDef drawn_at(ViewQuality quality, const char *kind)
@@ -67,7 +66,7 @@ static void it_is_no_part_of_the_world(void **state)
     assert_true(scene_set_live(&scene, "view.quality=best", &of_world, &error) && !of_world);
     assert_int_equal(scene.view.quality, VIEW_BEST);
     assert_true(scene_key_find("view.quality")->flags & KEY_IDLE);
-    assert_true(volume_def(&scene.view)->cells == volume_usual.cells); /* what is said stays as it is */
+    assert_true(volume_def(&scene.view)->cells == volume_usual.cells); /* explicit settings stay */
 }
 
 /* The window on a software driver: the renderer draws a draft once further pictures follow, and all pixels

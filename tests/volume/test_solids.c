@@ -1,4 +1,5 @@
-/* Solids as voxels: where each pixel shows one, against the shape itself, and who hides whom among fluid. */
+/* Solids as voxels: visible pixels against the shape, and occlusion with fluid. */
+#include "tests/lists.h"
 #include "tests/render/solids_fixture.h"
 
 #include "render/views/volume/volume_private.h"
@@ -81,9 +82,8 @@ static void test_moves_with_time(void **state)
     (void)state;
     SolidsScene scene = voxel_scene(RAYCAST_OPAQUE);
     SolidDef *solid = scene_add(&scene, SOLID_BOX, -0.3, 0.5, 0);
-    solid->motion_count = 2;
-    solid->motions[0] = (Motion){MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.5, .frequency = 0.2};
-    solid->motions[1] = (Motion){MOTION_SPIN, .axis = {0.2, 0.3, 1}, .rate = 1};
+    add_solid_motion(solid, (Motion){MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.5, .frequency = 0.2});
+    add_solid_motion(solid, (Motion){MOTION_SPIN, .axis = {0.2, 0.3, 1}, .rate = 1});
     scene.state.time = 1.2;
     assert_true(expect_shape(&scene, 0.9) > 300);
 }

@@ -3,7 +3,7 @@
 #include "tests/render/fixture.h"
 #include "tests/volume/still_water.h"
 
-#include "render/frame/camera.h"
+#include "render/frame/frame.h"
 #include "render/views/volume/volume.h"
 
 #define SPACING 0.1
@@ -171,7 +171,8 @@ static void a_periodic_side_is_no_wall(void **state)
     free(scene.particles);
 }
 
-/* Drops in a row from one alone to one at the wall; each is a disc of its own volume's radius. */
+/* Drops in a row from a lone drop to a drop at the wall; each is a disc with the radius of the drop's
+   volume. */
 static void a_particle_alone_is_a_ball_of_its_volume(void **state)
 {
     (void)state;
@@ -205,7 +206,7 @@ static void fluid_at_rest_has_no_drops(void **state)
     fill(&scene, 5);
     volume_def(&scene.def)->method = VOLUME_SLABS;
     float *with = distances(&scene);
-    volume_def(&scene.def)->show = VOLUME_NORMALS; /* which has none */
+    volume_def(&scene.def)->show = VOLUME_NORMALS; /* without */
     float *without = distances(&scene);
     assert_memory_equal(with, without, WIDTH * HEIGHT * sizeof *with);
     free(with);
@@ -213,9 +214,9 @@ static void fluid_at_rest_has_no_drops(void **state)
     free(scene.particles);
 }
 
-/* How strong the rows of particles are in the green of the picture's middle: the amplitude at their distance,
-   32 pixels, in 255ths, of second differences over half of that, in which what is even and what rises evenly
-   is nothing. */
+/* Visibility of particle rows in the green of the picture's middle: the amplitude at the row distance, 32
+   pixels, in 255ths. Of second differences over half the distance, so that constant and linear parts
+   vanish. */
 static double rows_seen(const uint8_t *rgb)
 {
     double sum = 0;
@@ -285,8 +286,7 @@ static double linear(uint8_t s)
     return s <= 10 ? s / 255.0 / 12.92 : pow((s / 255.0 + 0.055) / 1.055, 2.4);
 }
 
-/* By the light that it takes from rays: water is as deep at the edges of a tank as elsewhere, since its sides
- * mirror. */
+/* By absorbed light: water is as deep at a tank's edges as elsewhere, since the sides mirror. */
 static void sides_mirror_from_within(void **state)
 {
     (void)state;

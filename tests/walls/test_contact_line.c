@@ -1,8 +1,8 @@
-/* Where a free surface meets a wall, and what lies on a floor alone: nothing touches. sim/box/walls.h
+/* Where a free surface meets a wall, and what lies on a floor alone: nothing touches. sim/box/box.h
  */
 #include "tests/sim/fixture.h"
 
-#include "sim/box/walls.h"
+#include "sim/box/box.h"
 #include "sim/def/fluids.h"
 #include "sim/methods/wcsph/wcsph.h"
 
@@ -105,7 +105,7 @@ static void a_wedge_at_a_wall_does_not_touch_it(void **state)
     }
 }
 
-/* A film of one layer; that of mueller floats by itself. */
+/* A film of a single layer; with mueller the film floats. */
 static void a_film_lies_above_its_floor(void **state)
 {
     (void)state;
@@ -113,8 +113,8 @@ static void a_film_lies_above_its_floor(void **state)
     does_not_touch(&def, 0.6 * spacing, 0, 1);
 }
 
-/* Whatever a fall has put into them: a watch over energy takes it for no trouble. Four feel each other, so
-   that their pressures change while they lie on the cushion. */
+/* After a fall into the film the energy watch finds no trouble. Four particles interact, so that
+   pressures change on the cushion. */
 static void few_particles_fall_and_lie(void **state)
 {
     (void)state;

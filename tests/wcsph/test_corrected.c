@@ -46,8 +46,8 @@ static bool is_inside(int i)
     return fabs((double)x0[3 * i]) < 0.5 && fabs((double)x0[3 * i + 1] - 1.2) < 0.5;
 }
 
-/* Of a flow whose divergence is 0.3 1/s everywhere: how far the rate of density is off at worst, away from
-   the walls, over what it is at a density of 1000 (1 + dense). */
+/* For a flow with divergence 0.3 1/s everywhere: the worst error of the density rate away from walls,
+   relative to the rate at a density of 1000 (1 + dense). */
 static double rate_error(bool corrected, double dense)
 {
     WorldDef def = def_of(corrected, 0);

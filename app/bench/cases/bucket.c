@@ -1,6 +1,6 @@
 /* A spinning bucket: the surface is y = omega^2 r^2 / 2 g. */
 #include "app/bench/cases/case_list.h"
-#include "app/run/measure/metric.h"
+#include "app/run/measure/measure.h"
 
 #include <math.h>
 

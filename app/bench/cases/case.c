@@ -2,7 +2,7 @@
 
 #include "app/base/program.h"
 #include "app/bench/cases/case_list.h"
-#include "app/scene/scene_files.h"
+#include "app/scene/scene.h"
 #include "slosh/world.h"
 
 #include <math.h>
@@ -148,29 +148,20 @@ double case_tolerance(const Case *of, int m, CaseLevel level, const char *method
     return own > 0 ? own : coarse ? of->metrics[m].coarse : of->metrics[m].tolerance;
 }
 
-static bool add_setting(SceneSettings *settings, const char *text, const char *said, Error *error)
-{
-    if (settings->count == SCENE_SETTINGS_MAX)
-        return error_set(error, "more than %d settings; write them into a scene file", SCENE_SETTINGS_MAX);
-    settings->said[settings->count] = said;
-    settings->set[settings->count++] = text;
-    return true;
-}
-
 bool case_scene(const CaseSetup *setup, Scene *scene, Error *error)
 {
     char spacing[64], method[64];
     SceneSettings all = {.particles = setup->settings->particles};
     snprintf(spacing, sizeof spacing, "particles.spacing=%.9g", setup->of->spacing[setup->level]);
     snprintf(method, sizeof method, "solver.method=%.32s", setup->method);
-    bool ok = add_setting(&all, spacing, NULL, error) && add_setting(&all, method, NULL, error);
+    bool ok = scene_settings_add(&all, NULL, spacing, error) && scene_settings_add(&all, NULL, method, error);
     if (ok && setup->of->setting)
-        ok = add_setting(&all, setup->of->setting, NULL, error);
+        ok = scene_settings_add(&all, NULL, setup->of->setting, error);
     const CaseMethod *with = case_method(setup->of, setup->method);
     for (int i = 0; ok && with && i < CASE_SETTINGS && with->set[i]; i++)
-        ok = add_setting(&all, with->set[i], NULL, error);
+        ok = scene_settings_add(&all, NULL, with->set[i], error);
     for (int i = 0; ok && i < setup->settings->count; i++)
-        ok = add_setting(&all, setup->settings->set[i], setup->settings->said[i], error);
+        ok = scene_settings_add(&all, setup->settings->said[i], setup->settings->set[i], error);
     return ok && scene_load(setup->of->scene, &all, scene, setup->notes, error);
 }
 
@@ -253,7 +244,7 @@ static World *start_world(const Case *of, const WorldDef *def, Error *error)
 static void read_probes(CaseRun *run, World *world)
 {
     Forces forces = {0};
-    if (run->feels)
+    if (run->wants_forces)
         world_forces(world, &forces);
     probes_read(run->probes, &run->cloud, &forces, run->probe);
 }
@@ -316,8 +307,8 @@ static bool start_probes(CaseResult *result, World *world, Error *error)
     const ProbeList *list = &result->scene.probes;
     if (list->count == 0)
         return true;
-    result->run.feels = probe_list_has_forces(list);
-    if (result->run.feels && !world_enable_forces(world, error))
+    result->run.wants_forces = probe_list_has_forces(list);
+    if (result->run.wants_forces && !world_enable_forces(world, error))
         return false;
     result->run.probes = probes_create(list, &result->scene.world);
     if (!result->run.probes)

@@ -4,8 +4,7 @@
 #define APP_BENCH_CASES_CASE_H
 
 #include "app/base/program.h"
-#include "app/run/measure/metric.h"
-#include "app/run/measure/probe.h"
+#include "app/run/measure/measure.h"
 #include "app/scene/scene.h"
 #include "slosh/error.h"
 #include "slosh/world.h"
@@ -92,7 +91,7 @@ typedef struct CaseRun {
     WorldInfo info; /* of the present state */
     Cloud cloud;
     Probes *probes;                                  /* of the scene; or NULL */
-    bool feels;                                      /* true if a probe measures force */
+    bool wants_forces;                               /* true if a probe measures force */
     float probe[CASE_PROBES];                        /* columns of the probes, for the state in `cloud` */
     Curve column[CASE_COLUMNS];                      /* over time, filled in by the case's `sample` */
     Curve found[CASE_CURVES], expected[CASE_CURVES]; /* for the plot, filled in by the case's `judge` */

@@ -1,7 +1,7 @@
 /* The lid-driven cavity: velocities on its centre lines, against Ghia, Ghia and Shin 1982. */
 #include "app/bench/cases/case.h"
 #include "app/bench/cases/case_list.h"
-#include "app/run/measure/metric.h"
+#include "app/run/measure/measure.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -21,7 +21,7 @@ static double along_of(const Reference *published, int line, int k)
 /* Adds the velocities across both lines at the published points, state after state, to columns 0 and 1. */
 static void sample(CaseRun *run)
 {
-    static Reference published;
+    Reference published;
     Error none;
     const double side = run->def->box_size[0];
     if (run->info.time < STEADY * run->of->time || !reference_load(PUBLISHED, &published, &none))
@@ -50,7 +50,7 @@ static double mean_of(const Curve *column, int rows, int k)
    shows u over y and v over x together. */
 static bool judge(CaseRun *run, Error *error)
 {
-    static Reference published;
+    Reference published;
     const WorldDef *def = run->def;
     const double side = def->box_size[0], lid = def->lid[0];
     const double reynolds = lid * side * def->fluids[0].density / def->fluids[0].viscosity;

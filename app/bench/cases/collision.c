@@ -1,6 +1,6 @@
 /* Two drops collide off centre: momenta are conserved, and energy must not grow. */
 #include "app/bench/cases/case_list.h"
-#include "app/run/measure/metric.h"
+#include "app/run/measure/measure.h"
 
 #include <math.h>
 

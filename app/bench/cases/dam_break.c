@@ -5,7 +5,7 @@
    much. */
 #include "app/bench/cases/case.h"
 #include "app/bench/cases/case_list.h"
-#include "app/run/measure/metric.h"
+#include "app/run/measure/measure.h"
 
 #include <math.h>
 
@@ -33,7 +33,7 @@ enum { EXPERIMENT, POTENTIAL_FRONT, POTENTIAL_HEIGHT };
 /* Loads a reference as a curve: T = t sqrt(2 g / a), and Z = x / a or H = y / a. */
 static bool expect(CaseRun *run, int c, const char *path, int what, Error *error)
 {
-    static Reference reference;
+    Reference reference;
     if (!reference_load(path, &reference, error))
         return false;
     for (int k = 0; k < reference.rows; k++)
@@ -42,14 +42,14 @@ static bool expect(CaseRun *run, int c, const char *path, int what, Error *error
     return true;
 }
 
-typedef struct Miss {
+typedef struct FrontError {
     double mean, worst;
-} Miss;
+} FrontError;
 
 /* |found(T_k) - Z_k| / Z_k over the points of the reference; no shift in time. */
-static Miss miss_of(const Curve *found, const Curve *expected)
+static FrontError miss_of(const Curve *found, const Curve *expected)
 {
-    Miss miss = {0, 0};
+    FrontError miss = {0, 0};
     for (size_t k = 0; k < expected->count; k++) {
         const double z = expected->at[k][1], one = fabs(curve_at(found, expected->at[k][0]) - z) / z;
         miss.mean += one / (double)expected->count;
@@ -70,8 +70,8 @@ static bool judge(CaseRun *run, Error *error)
         !expect(run, POTENTIAL_HEIGHT, potential, HEIGHT, error))
         return false;
     const Curve *found = run->found, *expected = run->expected;
-    const Miss own = miss_of(&found[FRONT], &expected[EXPERIMENT]),
-               exact = miss_of(&expected[POTENTIAL_FRONT], &expected[EXPERIMENT]);
+    const FrontError own = miss_of(&found[FRONT], &expected[EXPERIMENT]),
+                     exact = miss_of(&expected[POTENTIAL_FRONT], &expected[EXPERIMENT]);
     run->figures[0] = figure_scaled(miss_of(&found[FRONT], &expected[POTENTIAL_FRONT]).mean, 0, 1);
     run->figures[1] = figure_scaled(miss_of(&found[HEIGHT], &expected[POTENTIAL_HEIGHT]).mean, 0, 1);
     run->figures[2] = figure_scaled(own.mean, exact.mean, 1);

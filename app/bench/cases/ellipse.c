@@ -2,7 +2,7 @@
    Monaghan, "Simulating free surface flows with SPH", 1994. The only force is pressure, 0 on the ellipse.
    The semi-axes a along x and b = 1 / a along y follow A' = A^2 (a^4 - 1) / (a^4 + 1), a' = -a A. */
 #include "app/bench/cases/case_list.h"
-#include "app/run/measure/metric.h"
+#include "app/run/measure/measure.h"
 #include "sim/step/method.h"
 
 #include <math.h>

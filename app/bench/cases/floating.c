@@ -113,7 +113,7 @@ const Case case_floating = {
     .methods = {{.name = "wcsph"},
                 {.name = "mueller", .coarse = {0.2}},
                 /* coarse: the start decides; of eight starts 1.4 to 20.4 %, 8 % in the mean */
-                {.name = "dfsph", .coarse = {0.22}},
+                {.name = "dfsph", .coarse = {0.05}},
                 {.name = "pbf", .left_out = PBF_OUT}},
     .spacing = {0.4 / 12, 0.4 / 24, 0.4 / 32},
     .time = 2.6,
@@ -175,7 +175,7 @@ const Case case_heaving = {
     .scene = "scenes/cases/heaving.yaml",
     .methods = {{.name = "wcsph"},
                 {.name = "mueller", .coarse = {0.1, 0.35}},
-                {.name = "dfsph", .tolerance = {0.1, 0.3}, .coarse = {0.15, 0.5}},
+                {.name = "dfsph", .tolerance = {0.03, 0.3}, .coarse = {0.05, 0.3}},
                 {.name = "pbf", .left_out = PBF_OUT}},
     .spacing = {0.2 / 6.5, 0.2 / 10, 0.2 / 16},
     .time = 1.4,

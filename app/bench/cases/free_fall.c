@@ -1,6 +1,6 @@
 /* A box in free fall: in its frame, the fluid floats in place. */
 #include "app/bench/cases/case_list.h"
-#include "app/run/measure/metric.h"
+#include "app/run/measure/measure.h"
 
 #include <math.h>
 

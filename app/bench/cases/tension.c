@@ -1,7 +1,7 @@
 /* Surface tension in the plane: oscillation of a drop, pressure in drops, contact angle of drops on a
    floor. */
 #include "app/bench/cases/case_list.h"
-#include "app/run/measure/metric.h"
+#include "app/run/measure/measure.h"
 
 #include <math.h>
 

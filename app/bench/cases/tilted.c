@@ -1,6 +1,6 @@
 /* Fluid starting in balance: pressures in the first second, in a leaning tank, and with two layers. */
 #include "app/bench/cases/case_list.h"
-#include "sim/start/fill.h"
+#include "sim/start/start.h"
 
 #include <math.h>
 
@@ -60,7 +60,7 @@ const Case case_tilted = {
     .scene = "scenes/tilted.yaml",
     .methods = {{.name = "wcsph"},
                 {.name = "mueller", .tolerance = {0.25}, .coarse = {0.4}},
-                {.name = "dfsph", .tolerance = {0.08}, .coarse = {0.1}},
+                {.name = "dfsph", .tolerance = {0.025}, .coarse = {0.075}},
                 {.name = "pbf", .tolerance = {0.3}, .coarse = {0.3}}},
     .spacing = {0.05, 0.02, 0.01},
     .metrics = {{"rms pressure in the first second", "", .tolerance = 0.015, .coarse = 0.03}},
@@ -73,7 +73,18 @@ const Case case_tilted = {
     }
 #define DFSPH                                                                                                \
     {                                                                                                        \
-        .name = "dfsph", .tolerance = {0.06, 0.06}, .coarse = { 0.1, 0.1 }                                   \
+        .name = "dfsph", .tolerance = {0.035, 0.035}, .coarse = { 0.07, 0.07 }                               \
+    }
+
+/* At a support of 3.1, which moves better, light particles clump under a free surface. The second figure is
+   of a single moment: 3.4 to 6.7 % by chance. */
+#define DFSPH_RESTS                                                                                          \
+    {                                                                                                        \
+        .name = "dfsph", .set = {"particles.support=2.6", "solver.surface_lack=0"},                          \
+        .tolerance = {0.035, 0.07}, .coarse = {                                                              \
+            0.07,                                                                                            \
+            0.1                                                                                              \
+        }                                                                                                    \
     }
 
 #define LAYERS(...)                                                                                          \
@@ -93,18 +104,13 @@ const Case case_layers_10 = {
     .name = "layers_10",
     .help = "the same with 1 : 10",
     .setting = "fluids[1].density=100",
-    LAYERS(MUELLER,
-           {.name = "dfsph",
-            .tolerance = {0.06, 0.06},
-            .coarse = {0.1, 0.1},
-            .why = {"what its solver leaves: 3 % with solver.divergence_tolerance 1e-6"}},
-           {.name = "pbf", .left_out = "its pressures are off by a third at this ratio"}),
+    LAYERS(MUELLER, DFSPH, {.name = "pbf", .left_out = "its pressures are off by a third at this ratio"}),
 };
 
 const Case case_layers_1000 = {
     .name = "layers_1000",
     .help = "the same with 1 : 1000",
     .setting = "fluids[1].density=1",
-    LAYERS(DFSPH, {.name = "mueller", .left_out = "it throws single light particles at this ratio"},
+    LAYERS(DFSPH_RESTS, {.name = "mueller", .left_out = "it throws single light particles at this ratio"},
            {.name = "pbf", .left_out = "its pressures are off by a third at a tenth of this ratio"}),
 };

@@ -1,6 +1,6 @@
 /* Taylor-Green vortices in a periodic square: the energy falls as exp(-16 pi^2 nu t / L^2). */
 #include "app/bench/cases/case_list.h"
-#include "app/run/measure/metric.h"
+#include "app/run/measure/measure.h"
 
 #include <math.h>
 

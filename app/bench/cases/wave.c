@@ -1,7 +1,7 @@
 /* A standing wave of half a wavelength in a tank with slip walls, and its viscous decay. */
 #include "app/bench/cases/case.h"
 #include "app/bench/cases/case_list.h"
-#include "app/run/measure/metric.h"
+#include "app/run/measure/measure.h"
 
 #include <complex.h>
 #include <math.h>
@@ -94,7 +94,7 @@ const Case case_wave = {
     .scene = "scenes/cases/standing_wave.yaml",
     .methods = {{.name = "wcsph"},
                 {.name = "mueller", .tolerance = {0.06, 0.08}, .coarse = {1, 0.1}},
-                {.name = "dfsph", .tolerance = {0.7, 0.08}, .coarse = {2.5, 0.06}},
+                {.name = "dfsph", .tolerance = {0.5, 0.01}, .coarse = {0.4, 0.01}},
                 {.name = "pbf",
                  .left_out = "steps of 1/60 s damp the wave two to three times as much as friction does"}},
     .spacing = {0.05, 0.025, 0.0125},

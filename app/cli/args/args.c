@@ -1,7 +1,7 @@
 #include "app/cli/args/args.h"
 
 #include "app/base/program.h"
-#include "app/scene/scene_files.h"
+#include "app/scene/scene.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -9,30 +9,31 @@
 #include <string.h>
 
 /* Parser state: reads a command line into Args. */
-typedef struct Parser {
-    const ArgsTable *table;
+typedef struct ArgsParser {
+    CommandList commands;
     int argc, at; /* `at`: index of the next argument */
     char *const *argv;
-    const CommandRow *row;
+    const Command *command; /* NULL: not known yet */
     Args *args;
     Error *error;
-} Parser;
+} ArgsParser;
 
 /* Sets the error "slosh render: message"; returns false. */
-__attribute__((format(printf, 2, 3))) static bool fail(const Parser *parser, const char *format, ...)
+__attribute__((format(printf, 2, 3))) static bool fail(const ArgsParser *parser, const char *format, ...)
 {
     char what[512];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    return error_set(parser->error, "slosh%s%s: %s", parser->row ? " " : "",
-                     parser->row ? parser->row->name : "", what);
+    return error_set(parser->error, "slosh%s%s: %s", parser->command ? " " : "",
+                     parser->command ? parser->command->name : "", what);
 }
 
-static void *field(const Parser *parser, const OptionRow *option)
+static void *field(const ArgsParser *parser, const OptionRow *option)
 {
-    return (char *)parser->args + option->offset;
+    void *owner = option->flags & OPTION_OWN ? parser->args->own : parser->args;
+    return (char *)owner + option->offset;
 }
 
 /* Copies a text into the pool of the Args; the copy lives as long as the Args. Returns NULL if the pool is
@@ -65,7 +66,7 @@ static bool number_parse(const char *text, double *out)
     return !*end && isfinite(*out);
 }
 
-static bool parse_number(const Parser *parser, const OptionRow *option, const char *text, bool whole,
+static bool parse_number(const ArgsParser *parser, const OptionRow *option, const char *text, bool whole,
                          double *out)
 {
     const bool open = option->flags & OPTION_OPEN_LOW;
@@ -78,7 +79,7 @@ static bool parse_number(const Parser *parser, const OptionRow *option, const ch
                 option->min, open ? " and at most " : " to ", option->max, text);
 }
 
-static bool parse_size(const Parser *parser, const OptionRow *option, const char *text)
+static bool parse_size(const ArgsParser *parser, const OptionRow *option, const char *text)
 {
     int *size = field(parser, option); /* width, then height */
     const char *cross = strchr(text, 'x');
@@ -90,12 +91,11 @@ static bool parse_size(const Parser *parser, const OptionRow *option, const char
                     option->max, text);
     size[0] = (int)width;
     size[1] = (int)height;
-    parser->args->size_given = true;
     return true;
 }
 
 /* Parses one name of "a|b|c"; stores `min` plus the index of the name. */
-static bool parse_choice(const Parser *parser, const OptionRow *option, const char *text)
+static bool parse_choice(const ArgsParser *parser, const OptionRow *option, const char *text)
 {
     const char *name = option->value;
     for (int value = (int)option->min;; value++) {
@@ -110,7 +110,7 @@ static bool parse_choice(const Parser *parser, const OptionRow *option, const ch
     }
 }
 
-static bool parse_setting(const Parser *parser, const OptionRow *option, const char *text)
+static bool parse_setting(const ArgsParser *parser, const OptionRow *option, const char *text)
 {
     SceneSettings *settings = &parser->args->settings;
     char whole[512];
@@ -132,12 +132,13 @@ static bool parse_setting(const Parser *parser, const OptionRow *option, const c
     return true;
 }
 
-/* Full path of a sweep key: "backend" stands for "solver.backend", as in --backend. */
-static const char *sweep_key(const ArgsTable *table, const char *name)
+/* Full path of a sweep key: "backend" stands for "solver.backend", as in --backend of any command. */
+static const char *sweep_key(CommandList commands, const char *name)
 {
-    for (const OptionRow *option = table->options; option->name; option++)
-        if (option->path && strcmp(option->name + 2, name) == 0)
-            return option->path;
+    for (CommandList at = commands; *at; at++)
+        for (const OptionRow *option = (*at)->options; option->name; option++)
+            if (option->path && strcmp(option->name + 2, name) == 0)
+                return option->path;
     return name;
 }
 
@@ -151,7 +152,7 @@ static size_t value_length(const char *text)
     return length;
 }
 
-static bool parse_sweep(const Parser *parser, const OptionRow *option, const char *text)
+static bool parse_sweep(const ArgsParser *parser, const OptionRow *option, const char *text)
 {
     Args *args = parser->args;
     const char *equals = strchr(text, '=');
@@ -161,7 +162,7 @@ static bool parse_sweep(const Parser *parser, const OptionRow *option, const cha
         return fail(parser, "more than %d times %s; use fewer", ARGS_SWEEPS_MAX, option->name);
     Sweep *sweep = &args->sweeps[args->sweep_count++];
     const char *name = keep(args, text, (size_t)(equals - text));
-    sweep->key = name ? sweep_key(parser->table, name) : NULL;
+    sweep->key = name ? sweep_key(parser->commands, name) : NULL;
     sweep->typed = name;
     for (const char *at = equals; *at; at += value_length(at)) {
         at++; /* the '=' or a comma */
@@ -181,16 +182,20 @@ static bool parse_sweep(const Parser *parser, const OptionRow *option, const cha
     return true;
 }
 
-static bool parse_axis(const Parser *parser, const char *text)
+/* Adds a text to a list. */
+static bool parse_list(const ArgsParser *parser, const OptionRow *option, const char *text)
 {
-    Args *args = parser->args;
-    if (args->axis_count == ARGS_AXES_MAX)
-        return fail(parser, "more than %d times --axis; use fewer", ARGS_AXES_MAX);
-    args->axes[args->axis_count++] = text;
+    const char **list = field(parser, option);
+    int count = 0;
+    while (list[count])
+        count++;
+    if (count == ARGS_LIST_MAX - 1)
+        return fail(parser, "more than %d times %s; use fewer", ARGS_LIST_MAX - 1, option->name);
+    list[count] = text;
     return true;
 }
 
-static bool parse_device(const Parser *parser, const OptionRow *option, const char *text)
+static bool parse_device(const ArgsParser *parser, const OptionRow *option, const char *text)
 {
     *(const char **)field(parser, option) = text;
     return (strncmp(text, "file:", 5) == 0 && text[5]) ||
@@ -198,7 +203,7 @@ static bool parse_device(const Parser *parser, const OptionRow *option, const ch
                 text);
 }
 
-static bool parse_value(const Parser *parser, const OptionRow *option, const char *text)
+static bool parse_value(const ArgsParser *parser, const OptionRow *option, const char *text)
 {
     void *out = field(parser, option);
     double number;
@@ -207,9 +212,6 @@ static bool parse_value(const Parser *parser, const OptionRow *option, const cha
         *(const char **)out = text;
         return *text || fail(parser, "%s needs a name after it, not an empty one", option->name);
     case OPTION_NUMBER:
-        parser->args->time_given |= strcmp(option->name, "--time") == 0;
-        parser->args->past_given |= strcmp(option->name, "--past") == 0;
-        parser->args->seconds_given |= strcmp(option->name, "--seconds") == 0;
         return parse_number(parser, option, text, false, out);
     case OPTION_COUNT:
         if (!parse_number(parser, option, text, true, &number))
@@ -229,8 +231,8 @@ static bool parse_value(const Parser *parser, const OptionRow *option, const cha
         return parse_setting(parser, option, text);
     case OPTION_SWEEP:
         return parse_sweep(parser, option, text);
-    case OPTION_AXIS:
-        return parse_axis(parser, text);
+    case OPTION_LIST:
+        return parse_list(parser, option, text);
     case OPTION_DEVICE:
         return parse_device(parser, option, text);
     case OPTION_FLAG:
@@ -241,49 +243,48 @@ static bool parse_value(const Parser *parser, const OptionRow *option, const cha
     return false;
 }
 
-static const OptionRow *option_find(const Parser *parser, const char *name)
+static const OptionRow *option_find(const Command *command, const char *name)
 {
-    for (const OptionRow *option = parser->table->options; option->name; option++)
-        if (option->commands & 1u << parser->row->command && strcmp(option->name, name) == 0)
+    for (const OptionRow *option = command->options; option->name; option++)
+        if (strcmp(option->name, name) == 0)
             return option;
     return NULL;
 }
 
 /* Lists the commands that take the option: "render, run". */
-static void who_takes(const ArgsTable *table, const char *name, char commands[128])
+static void list_takers(CommandList list, const char *name, char commands[128])
 {
     size_t used = 0;
-    for (const CommandRow *row = table->commands; row->name; row++)
-        for (const OptionRow *option = table->options; option->name; option++)
-            if (option->commands & 1u << row->command && option->kind != OPTION_REFUSED &&
-                strcmp(option->name, name) == 0 && used < 128)
-                used += (size_t)snprintf(commands + used, 128 - used, "%s%s", used ? ", " : "", row->name);
+    for (CommandList at = list; *at && used < 128; at++) {
+        const OptionRow *option = option_find(*at, name);
+        if (option && option->kind != OPTION_REFUSED)
+            used += (size_t)snprintf(commands + used, 128 - used, "%s%s", used ? ", " : "", (*at)->name);
+    }
 }
 
-static bool unknown_option(const Parser *parser, const char *name)
+static bool unknown_option(const ArgsParser *parser, const char *name)
 {
-    char commands[128] = "";
-    who_takes(parser->table, name, commands);
-    if (*commands)
+    char takers[128] = "";
+    list_takers(parser->commands, name, takers);
+    if (*takers)
         return fail(parser, "unknown option '%.60s', which is one of slosh %s; `slosh help %s` lists its own",
-                    name, commands, parser->row->name);
+                    name, takers, parser->command->name);
     Suggestion near = suggest_for(name);
-    for (const OptionRow *option = parser->table->options; option->name; option++)
-        if (option->commands & 1u << parser->row->command)
-            suggest_offer(&near, option->name);
+    for (const OptionRow *option = parser->command->options; option->name; option++)
+        suggest_offer(&near, option->name);
     if (near.best)
         return fail(parser, "unknown option '%.60s'; did you mean '%s'?", name, near.best);
-    return fail(parser, "unknown option '%.60s'; `slosh help %s` lists them", name, parser->row->name);
+    return fail(parser, "unknown option '%.60s'; `slosh help %s` lists them", name, parser->command->name);
 }
 
 /* Parses an option from the argument just read: "--name", "--name=value" or "--name" before its value. */
-static bool parse_option(Parser *parser, const char *argument)
+static bool parse_option(ArgsParser *parser, const char *argument)
 {
     char name[64];
     const char *equals = strncmp(argument, "--", 2) == 0 ? strchr(argument, '=') : NULL;
     const size_t length = equals ? (size_t)(equals - argument) : strlen(argument);
     snprintf(name, sizeof name, "%.*s", (int)length, argument);
-    const OptionRow *option = option_find(parser, strcmp(name, "-h") == 0 ? "--help" : name);
+    const OptionRow *option = option_find(parser->command, strcmp(name, "-h") == 0 ? "--help" : name);
     if (!option)
         return unknown_option(parser, name);
     if (option->kind == OPTION_REFUSED)
@@ -293,7 +294,8 @@ static bool parse_option(Parser *parser, const char *argument)
     if (option->kind == OPTION_FLAG)
         *(bool *)field(parser, option) = true;
     if (option->kind == OPTION_HELP)
-        parser->args->command = COMMAND_HELP;
+        parser->args->help = true;
+    parser->args->given |= UINT64_C(1) << (option - parser->command->options);
     if (!option->value)
         return true;
     if (!equals && parser->at == parser->argc)
@@ -301,77 +303,38 @@ static bool parse_option(Parser *parser, const char *argument)
     return parse_value(parser, option, equals ? equals + 1 : parser->argv[parser->at++]);
 }
 
-/* Noun for the arguments of a command. */
-static const char *takes(const CommandRow *row)
-{
-    return row->command == COMMAND_REPLAY     ? "recording"
-           : row->command == COMMAND_EXPORT   ? "snapshot file"
-           : row->command == COMMAND_VALIDATE ? "case"
-           : row->command == COMMAND_CHART    ? "scene or case"
-           : row->command == COMMAND_SCENES   ? "folder"
-           : row->command == COMMAND_NEW      ? "new scene"
-                                              : "scene";
-}
-
-static bool parse_scene(const Parser *parser, const char *name)
+static bool parse_scene(const ArgsParser *parser, const char *name)
 {
     Args *args = parser->args;
-    if (args->scene_count == parser->row->scenes_max)
+    if (args->scene_count == parser->command->takes_max)
         return fail(parser, "one argument too many: '%.60s'; it takes %d %s%s", name, args->scene_count,
-                    takes(parser->row), args->scene_count == 1 ? "" : "s");
+                    parser->command->takes, args->scene_count == 1 ? "" : "s");
     args->scenes[args->scene_count++] = name;
     return true;
 }
 
-static const CommandRow *command_find(const ArgsTable *table, const char *name)
+const Command *command_find(CommandList commands, const char *name)
 {
-    for (const CommandRow *row = table->commands; row->name; row++)
-        if (strcmp(row->name, name) == 0)
-            return row;
-    return NULL;
+    while (*commands && strcmp((*commands)->name, name) != 0)
+        commands++;
+    return *commands;
 }
 
-static bool unknown_command(const Parser *parser, const char *name)
+bool command_unknown(CommandList commands, const char *name, Error *error)
 {
     Suggestion near = suggest_for(name);
-    for (const CommandRow *row = parser->table->commands; row->name; row++)
-        suggest_offer(&near, row->name);
+    for (CommandList at = commands; *at; at++)
+        suggest_offer(&near, (*at)->name);
     if (near.best)
-        return fail(parser, "unknown command '%.60s'; did you mean '%s'?", name, near.best);
+        return error_set(error, "slosh: unknown command '%.60s'; did you mean '%s'?", name, near.best);
     SceneNames scenes;
     scene_path_names(&scenes);
     for (int i = 0; i < scenes.count; i++)
         suggest_offer(&near, scenes.name[i]);
     if (near.best)
-        return fail(parser, "unknown command '%.60s'; did you mean the scene '%s'?", name, near.best);
-    return fail(parser, "unknown command '%.60s'; `slosh help` lists them, and the scenes", name);
-}
-
-static const HelpTopic *topic_find(const ArgsTable *table, const char *name)
-{
-    for (const HelpTopic *topic = table->topics; topic->name; topic++)
-        if (strcmp(topic->name, name) == 0)
-            return topic;
-    return NULL;
-}
-
-/* `slosh help [COMMAND|TOPIC]` */
-static bool parse_help(Parser *parser)
-{
-    if (parser->at == parser->argc)
-        return true;
-    const char *name = parser->argv[parser->at++];
-    const CommandRow *row = command_find(parser->table, name);
-    const HelpTopic *topic = topic_find(parser->table, name);
-    parser->row = NULL;
-    if (!row && !topic)
-        return unknown_command(parser, name);
-    if (parser->at < parser->argc)
-        return fail(parser, "one argument too many: '%.60s'; write slosh help COMMAND",
-                    parser->argv[parser->at]);
-    parser->args->help_for = row ? row->command : COMMAND_HELP;
-    parser->args->help_topic = topic;
-    return true;
+        return error_set(error, "slosh: unknown command '%.60s'; did you mean the scene '%s'?", name,
+                         near.best);
+    return error_set(error, "slosh: unknown command '%.60s'; `slosh help` lists them, and the scenes", name);
 }
 
 /* True if the word names a scene of slosh: "dam_break". */
@@ -389,30 +352,54 @@ static bool is_for_play(const char *word)
     return word[0] == '-' || strchr(word, '/') || strchr(word, '.') || is_scene(word);
 }
 
-static bool parse_command(Parser *parser)
+/* Prepares Args for the command: initial values of all options. */
+static bool begin_command(ArgsParser *parser, const Command *command)
 {
-    const char *name = parser->at < parser->argc ? parser->argv[parser->at++] : "play";
-    if (strcmp(name, "--version") == 0) {
-        parser->args->command = COMMAND_VERSION;
-        return true;
-    }
-    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
-        name = "help";
-    const CommandRow *row = command_find(parser->table, name);
-    if (!row && !is_for_play(name))
-        return unknown_command(parser, name);
-    if (!row) {
-        row = command_find(parser->table, "play");
-        parser->at--;
-    }
-    parser->row = parser->args->row = row;
-    parser->args->command = parser->args->help_for = row->command;
-    parser->args->width = row->width;
-    parser->args->height = row->height;
+    Args *args = parser->args;
+    parser->command = args->command = command;
+    args->width = command->width;
+    args->height = command->height;
+    if (command->own_size > 0 && !(args->own = calloc(1, command->own_size)))
+        return fail(parser, "out of memory");
+    for (const OptionRow *option = command->options; option->name; option++)
+        if (option->kind == OPTION_NUMBER)
+            *(double *)field(parser, option) = option->initial;
+        else if (option->kind == OPTION_COUNT)
+            *(int *)field(parser, option) = (int)option->initial;
     return true;
 }
 
-static bool parse_rest(Parser *parser)
+static bool parse_command(ArgsParser *parser)
+{
+    const char *name = parser->at < parser->argc ? parser->argv[parser->at++] : parser->commands[0]->name;
+    if (strcmp(name, "--version") == 0)
+        return true;
+    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
+        name = "help";
+    const Command *command = command_find(parser->commands, name);
+    if (!command && !is_for_play(name))
+        return command_unknown(parser->commands, name, parser->error);
+    parser->at -= !command;
+    return begin_command(parser, command ? command : parser->commands[0]);
+}
+
+/* Checks that the options go together, and that nothing is missing. */
+static bool check_whole(const ArgsParser *parser)
+{
+    const Args *args = parser->args;
+    const Command *command = parser->command;
+    if (args->scene_count < command->takes_min)
+        return fail(parser, "the %s is missing; write slosh %s %s", command->takes, command->name,
+                    command->usage);
+    if (command->output && !args->output)
+        return fail(parser, "-o is missing; add -o with %s", command->output);
+    for (const OptionRow *option = command->options; option->name; option++)
+        if (option->needs && args_given(args, option->name) && !args_given(args, option->needs))
+            return fail(parser, "%s %s", option->name, option->needs_why);
+    return true;
+}
+
+static bool parse_rest(ArgsParser *parser)
 {
     bool options = true;
     while (parser->at < parser->argc) {
@@ -423,34 +410,32 @@ static bool parse_rest(Parser *parser)
                                                                 : parse_scene(parser, argument)))
             return false;
     }
-    if (parser->args->command == COMMAND_HELP)
-        return true;
-    if (parser->args->scene_count < parser->row->scenes_min)
-        return fail(parser, "the %s is missing; write slosh %s %s", takes(parser->row), parser->row->name,
-                    parser->row->usage);
-    if (parser->row->output && !parser->args->output)
-        return fail(parser, "-o is missing; add -o with %s", parser->row->output);
-    const bool listens = parser->args->command == COMMAND_PLAY || parser->args->command == COMMAND_DEVICES;
-    if (parser->args->mapping && !parser->args->device && !listens)
-        return fail(parser, "--mapping says what motion devices do; add --device file:PATH, or leave it out");
-    return true;
+    return parser->args->help || check_whole(parser);
 }
 
-bool args_parse(const ArgsTable *table, int argc, char *const argv[], Args *args, Error *error)
+bool args_parse(CommandList commands, int argc, char *const argv[], Args *args, Error *error)
 {
     memset(args, 0, sizeof *args);
-    args->time = 5;
-    args->every = 1.0 / 30;
-    args->fps = 30;
-    args->seconds = 20;
-    args->past = 256; /* over a minute of 8,000 particles (docs/window.md) */
     args->gpu = -1;
-    Parser parser = {.table = table, .argc = argc, .at = 1, .argv = argv, .args = args, .error = error};
-    if (!parse_command(&parser))
-        return false;
-    if (args->command == COMMAND_HELP)
-        return parse_help(&parser);
-    if (!parser.row) /* --version */
-        return true;
-    return parse_rest(&parser);
+    ArgsParser parser = {
+        .commands = commands, .argc = argc, .at = 1, .argv = argv, .args = args, .error = error};
+    return parse_command(&parser) && (!parser.command || parse_rest(&parser));
+}
+
+void args_free(Args *args)
+{
+    free(args->own);
+    args->own = NULL;
+}
+
+bool args_given(const Args *args, const char *option)
+{
+    const OptionRow *row = args->command ? option_find(args->command, option) : NULL;
+    return row && args->given >> (row - args->command->options) & 1;
+}
+
+const char *args_text(const Args *args, const OptionRow *row)
+{
+    const void *owner = row->flags & OPTION_OWN ? args->own : args;
+    return *(const char *const *)((const char *)owner + row->offset);
 }

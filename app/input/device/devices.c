@@ -1,8 +1,7 @@
 /* The threads that read, look for and replay devices. */
-#include "app/input/device/devices.h"
+#include "app/input/device/device.h"
 
 #include "app/input/device/report.h"
-#include "app/input/device/report_log.h"
 #include "slosh/world.h"
 
 #include <errno.h>
@@ -284,9 +283,9 @@ static void try_open(Device *device, bool first_look)
         }
         return;
     }
-    const bool told = device->denials >= DENIALS_TOLD;
+    const bool reported = device->denials >= DENIALS_TOLD;
     device->denials = first_look ? DENIALS_TOLD : device->denials + 1;
-    if (told || device->denials < DENIALS_TOLD)
+    if (reported || device->denials < DENIALS_TOLD)
         return;
     device_problem(device->format.row, why, reason, problem);
     devices_notify(device, DEVICE_REFUSED, problem);

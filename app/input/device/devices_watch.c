@@ -2,7 +2,6 @@
 #include "app/input/device/device.h"
 
 #include "app/base/program.h"
-#include "app/input/device/devices.h"
 #include "slosh/world.h"
 
 #include <errno.h>
@@ -253,16 +252,17 @@ static void show_bars(Watcher *watcher)
 {
     char *text = NULL;
     size_t size = 0;
-    struct winsize room = {0};
+    struct winsize capacity = {0};
     FILE *out = watcher->watch->out, *memory = open_memstream(&text, &size);
     watcher->lines = 0;
     if (!memory)
         return;
     write_bars(watcher->watch, memory);
     fclose(memory);
-    const bool known = ioctl(fileno(out), TIOCGWINSZ, &room) == 0 && room.ws_col > 0 && room.ws_row > 0;
-    const size_t columns = known ? room.ws_col : 80;
-    const int rows = known ? room.ws_row : 24;
+    const bool known =
+        ioctl(fileno(out), TIOCGWINSZ, &capacity) == 0 && capacity.ws_col > 0 && capacity.ws_row > 0;
+    const size_t columns = known ? capacity.ws_col : 80;
+    const int rows = known ? capacity.ws_row : 24;
     for (const char *line = text; line && *line && watcher->lines < rows - 1; watcher->lines++) {
         const size_t length = strcspn(line, "\n");
         fprintf(out, "%.*s\033[K\n", (int)(length < columns ? length : columns - 1), line);

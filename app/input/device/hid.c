@@ -1,5 +1,6 @@
+#include "app/input/device/device.h"
+
 #include "app/base/program.h"
-#include "app/input/device/devices.h"
 
 #include <dirent.h>
 #include <errno.h>

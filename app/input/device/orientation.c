@@ -8,7 +8,7 @@
 static const double radians = M_PI / 180, standard_gravity = 9.80665;
 
 /* Relative deviation from gravity, below which the accelerometer counts fully, and above which not at all. */
-static const double felt_sure = 0.02, felt_unsure = 0.15;
+static const double gravity_sure = 0.02, gravity_unsure = 0.15;
 
 enum { RESTS_MOST = 20 }; /* the bias is the mean of at most so many rests: it drifts with temperature */
 
@@ -31,17 +31,19 @@ static void turn_by(const double rotation[3], double pose[4])
 }
 
 /* Returns 1 if only gravity is felt, 0 if the device is shaken or falls. */
-static double trust(const Orientation *o, const double felt[3])
+static double trust(const Orientation *o, const double specific_force[3])
 {
-    const double off = fabs(length(felt) / o->gravity - 1);
-    return off <= felt_sure ? 1 : off >= felt_unsure ? 0 : (felt_unsure - off) / (felt_unsure - felt_sure);
+    const double off = fabs(length(specific_force) / o->gravity - 1);
+    return off <= gravity_sure     ? 1
+           : off >= gravity_unsure ? 0
+                                   : (gravity_unsure - off) / (gravity_unsure - gravity_sure);
 }
 
 /* Computes the turn around a level axis that brings the felt gravity upright. */
-static void to_upright(const Orientation *o, const double felt[3], double rotation[3])
+static void to_upright(const Orientation *o, const double specific_force[3], double rotation[3])
 {
     double up[3];
-    quat_rotate(o->pose, felt, up);
+    quat_rotate(o->pose, specific_force, up);
     const double level = hypot(up[0], up[2]), angle = atan2(level, up[1]);
     rotation[0] = level > 0 ? -angle * up[2] / level : angle; /* upside down: any axis will do */
     rotation[1] = 0;
@@ -49,14 +51,14 @@ static void to_upright(const Orientation *o, const double felt[3], double rotati
 }
 
 /* Corrects the tilt: at first by the mean of all readings, later with the time constant. */
-static void level_pose(Orientation *o, double dt, const double felt[3])
+static void level_pose(Orientation *o, double dt, const double specific_force[3])
 {
     double rotation[3];
-    const double share = trust(o, felt) * fmax(dt / ORIENTATION_LEVELS, dt / (o->levelled_s + dt));
+    const double share = trust(o, specific_force) * fmax(dt / ORIENTATION_LEVELS, dt / (o->levelled_s + dt));
     if (!(share > 0))
         return;
     o->levelled_s += dt;
-    to_upright(o, felt, rotation);
+    to_upright(o, specific_force, rotation);
     for (int k = 0; k < 3; k++)
         rotation[k] *= fmin(share, 1);
     quat_turn(rotation, o->pose);
@@ -81,25 +83,27 @@ static void inverse(const double q[4], double out[4])
         out[k] = k < 3 ? -q[k] : q[k];
 }
 
-static void begin(Orientation *o, const double felt[3])
+static void begin(Orientation *o, const double specific_force[3])
 {
     double rotation[3];
-    to_upright(o, felt, rotation);
+    to_upright(o, specific_force, rotation);
     quat_turn(rotation, o->pose);
     o->begun = true;
 }
 
-static void window_add(RestWindow *window, double dt, const double rate[3], const double felt[3])
+static void window_add(RestWindow *window, double dt, const double rate[3], const double specific_force[3])
 {
     const bool first = window->reports == 0;
     for (int k = 0; k < 3; k++) {
         window->rate_sum[k] += rate[k];
         window->rate_low[k] = first ? rate[k] : fmin(window->rate_low[k], rate[k]);
         window->rate_high[k] = first ? rate[k] : fmax(window->rate_high[k], rate[k]);
-        window->felt_low[k] = first ? felt[k] : fmin(window->felt_low[k], felt[k]);
-        window->felt_high[k] = first ? felt[k] : fmax(window->felt_high[k], felt[k]);
+        window->acceleration_low[k] =
+            first ? specific_force[k] : fmin(window->acceleration_low[k], specific_force[k]);
+        window->acceleration_high[k] =
+            first ? specific_force[k] : fmax(window->acceleration_high[k], specific_force[k]);
     }
-    window->felt_sum += length(felt);
+    window->acceleration_sum += length(specific_force);
     window->seconds += dt;
     window->reports++;
 }
@@ -109,9 +113,10 @@ static bool window_still(const Orientation *o)
     const RestWindow *window = &o->window;
     bool still = true;
     for (int k = 0; k < 3; k++)
-        still = still && window->rate_high[k] - window->rate_low[k] < ORIENTATION_STEADY * radians &&
-                fabs(window->rate_sum[k] / window->reports) < ORIENTATION_BIAS_MOST * radians &&
-                window->felt_high[k] - window->felt_low[k] < ORIENTATION_STILL * standard_gravity;
+        still =
+            still && window->rate_high[k] - window->rate_low[k] < ORIENTATION_STEADY * radians &&
+            fabs(window->rate_sum[k] / window->reports) < ORIENTATION_BIAS_MOST * radians &&
+            window->acceleration_high[k] - window->acceleration_low[k] < ORIENTATION_STILL * standard_gravity;
     return still;
 }
 
@@ -128,14 +133,14 @@ static void learn(Orientation *o)
         o->rate[k] -= excess[k] / o->rests;
     }
     turn_by(back, o->pose);
-    const double felt = window->felt_sum / window->reports;
-    if (fabs(felt / standard_gravity - 1) < felt_unsure)
-        o->gravity += (felt - o->gravity) / o->rests;
+    const double specific_force = window->acceleration_sum / window->reports;
+    if (fabs(specific_force / standard_gravity - 1) < gravity_unsure)
+        o->gravity += (specific_force - o->gravity) / o->rests;
 }
 
-static void watch_for_rest(Orientation *o, double dt, const double rate[3], const double felt[3])
+static void watch_for_rest(Orientation *o, double dt, const double rate[3], const double specific_force[3])
 {
-    window_add(&o->window, dt, rate, felt);
+    window_add(&o->window, dt, rate, specific_force);
     const bool still = window_still(o);
     if (!still)
         o->resting = false;
@@ -168,30 +173,30 @@ static void bridge(Orientation *o)
 }
 
 /* Handles the first report, or a time that does not advance: no integration. */
-static void restart(Orientation *o, const double rate[3], const double felt[3])
+static void restart(Orientation *o, const double rate[3], const double specific_force[3])
 {
     if (!o->begun)
-        begin(o, felt);
+        begin(o, specific_force);
     for (int k = 0; k < 3; k++)
         o->rate[k] = rate[k] - o->bias[k];
 }
 
-bool orientation_update(Orientation *o, double time, const double rate[3], const double felt[3])
+bool orientation_update(Orientation *o, double time, const double rate[3], const double specific_force[3])
 {
     const double absurd = 1e6;
-    if (!isfinite(time) || !(length(rate) < absurd) || !(length(felt) < absurd)) /* false for NaN */
+    if (!isfinite(time) || !(length(rate) < absurd) || !(length(specific_force) < absurd)) /* false for NaN */
         return false;
     const double dt = time - o->time, step = fmin(dt, ORIENTATION_GAP);
     o->time = time;
     if (!o->begun || !(dt > 0)) {
-        restart(o, rate, felt);
+        restart(o, rate, specific_force);
         return true;
     }
     if (dt > ORIENTATION_GAP)
         bridge(o);
     integrate(o, step, rate);
-    level_pose(o, step, felt);
-    watch_for_rest(o, step, rate, felt);
+    level_pose(o, step, specific_force);
+    watch_for_rest(o, step, rate, specific_force);
     return true;
 }
 

@@ -109,7 +109,7 @@ bool calibration_parse(ReportLayout layout, const uint8_t *bytes, size_t size, C
 
 /* Parser of one layout. Returns false, with *state undefined, if the report does not fit. state->time is
    the report's time. */
-typedef bool Parser(const ReportFormat *format, const uint8_t *bytes, size_t size, DeviceState *state);
+typedef bool ReportParser(const ReportFormat *format, const uint8_t *bytes, size_t size, DeviceState *state);
 
 static double within(double value, double limit)
 {
@@ -267,7 +267,7 @@ static bool parse_dualsense_bluetooth(const ReportFormat *format, const uint8_t 
     return true;
 }
 
-static Parser *const parsers[LAYOUT_COUNT] = {
+static ReportParser *const parsers[LAYOUT_COUNT] = {
     [LAYOUT_SPACEMOUSE_W] = parse_cap_w,
     [LAYOUT_SPACEMOUSE_S] = parse_cap_s,
     [LAYOUT_SPACEMOUSE_ANY] = parse_cap_any,

@@ -1,8 +1,7 @@
-#include "app/input/device/report_log.h"
+#include "app/input/device/device.h"
 
 #include "app/base/file.h"
-#include "app/base/output.h"
-#include "app/run/recording/line_reader.h"
+#include "app/run/recording/recording.h"
 #include "slosh/world.h"
 
 #include <errno.h>
@@ -45,12 +44,12 @@ static bool grow(void **array, size_t count, size_t *capacity, size_t more, size
 {
     if (count + more <= *capacity)
         return true;
-    const size_t room = 2 * (count + more) + 64;
-    void *grown = realloc(*array, room * size);
+    const size_t larger = 2 * (count + more) + 64;
+    void *grown = realloc(*array, larger * size);
     if (!grown)
         return false;
     *array = grown;
-    *capacity = room;
+    *capacity = larger;
     return true;
 }
 

@@ -3,11 +3,10 @@
 #include "app/run/playback/playback.h"
 #include "app/run/recording/recording.h"
 #include "app/scene/scene.h"
-#include "app/scene/scene_files.h"
 #include "render/renderer.h"
 #include "sim/flow/flow.h"
 #include "sim/gpu/particle_buffers.h"
-#include "sim/start/seed.h"
+#include "sim/start/start.h"
 #include "slosh/state.h"
 #include "slosh/world.h"
 
@@ -105,12 +104,13 @@ void panel_title(const PanelFacts facts[], int count, int panel, const char *unn
 
 bool compare_is_other(const ViewDef *view)
 {
-    return *view->file || *view->set;
+    return view->file || view->set;
 }
 
 bool compare_is_same(const ViewDef *a, const ViewDef *b)
 {
-    return strcmp(a->file, b->file) == 0 && strcmp(a->set, b->set) == 0;
+    return strcmp(text_or_empty(a->file), text_or_empty(b->file)) == 0 &&
+           strcmp(text_or_empty(a->set), text_or_empty(b->set)) == 0;
 }
 
 static const char *name_of(const char *path)
@@ -122,8 +122,8 @@ static const char *name_of(const char *path)
 void compare_name(const ViewDef *view, char words[COMPARE_NAME_SIZE])
 {
     size_t used = 0;
-    snprintf(words, COMPARE_NAME_SIZE, "%.150s", name_of(view->file));
-    for (const char *line = view->set; *line && used < COMPARE_NAME_SIZE;) {
+    snprintf(words, COMPARE_NAME_SIZE, "%.150s", name_of(text_or_empty(view->file)));
+    for (const char *line = text_or_empty(view->set); *line && used < COMPARE_NAME_SIZE;) {
         const int length = (int)strcspn(line, "\n"), path = (int)strcspn(line, "=");
         used += (size_t)snprintf(words + used, COMPARE_NAME_SIZE - used, "%s%.*s %.*s", used ? ", " : "",
                                  path, line, length - path - 1, line + path + 1);
@@ -136,18 +136,14 @@ bool compare_settings(const SceneSettings *base, const ViewDef *view, int entry,
 {
     SceneSettings *settings = &out->settings;
     *settings = base ? *base : (SceneSettings){.count = 0};
-    snprintf(out->set, sizeof out->set, "%s", view->set);
-    settings->beside = view->set;
+    snprintf(out->set, sizeof out->set, "%s", text_or_empty(view->set));
+    settings->compared_set = view->set;
     char *rest = out->set;
     for (char *line = strtok_r(out->set, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
         const int at = settings->count;
-        if (at == SCENE_SETTINGS_MAX)
-            return error_set(error, "more than %d settings; write them into the scene file",
-                             SCENE_SETTINGS_MAX);
+        if (!scene_settings_add(settings, out->said[at], line, error))
+            return false;
         snprintf(out->said[at], sizeof out->said[at], "views[%d].set %.150s", entry, line);
-        settings->set[at] = line;
-        settings->said[at] = out->said[at];
-        settings->count++;
     }
     return true;
 }
@@ -250,7 +246,7 @@ struct CompareRuns {
 
 static bool is_run(const ComparedRun *member)
 {
-    return *member->view.file != 0;
+    return member->view.file != NULL;
 }
 
 /* ---- reading ---- */
@@ -407,11 +403,16 @@ void compare_destroy(CompareRuns *compared)
 /* ---- while it runs ---- */
 
 /* True if the view overrides the setting. */
-static bool has_own(const ComparedRun *member, const char *setting)
+static bool has_own(const ComparedRun *member, const SimCommand *command)
 {
-    const size_t length = strcspn(setting, "=");
-    for (const char *line = member->view.set; *line; line += strcspn(line, "\n"), line += *line != 0)
-        if (strncmp(line, setting, length) == 0 && line[length] == '=')
+    char path[SETTING_TEXT_SIZE];
+    if (command->kind != SIM_SET && command->kind != SIM_VALUE)
+        return false;
+    sim_command_path(command, path);
+    const size_t length = strlen(path);
+    for (const char *line = text_or_empty(member->view.set); *line;
+         line += strcspn(line, "\n"), line += *line != 0)
+        if (strncmp(line, path, length) == 0 && line[length] == '=')
             return true;
     return false;
 }
@@ -420,7 +421,7 @@ void compare_send(CompareRuns *compared, const SimCommand *command)
 {
     for (int i = 0; compared && i < compared->count; i++) {
         const ComparedRun *member = &compared->members[i];
-        if (member->simulator && !(command->kind == SIM_SET && has_own(member, command->setting)))
+        if (member->simulator && !has_own(member, command))
             simulator_send(member->simulator, command);
     }
 }
@@ -511,7 +512,7 @@ void compare_facts(const CompareRuns *compared, const ViewDef *view, PanelFacts 
     if (!member)
         return;
     *facts = (PanelFacts){.words = member->words,
-                          .said = member->view.set,
+                          .said = text_or_empty(member->view.set),
                           .def = &member->scene.world,
                           .particles = member->state.count,
                           .spacing = member->state.spacing,
@@ -550,7 +551,7 @@ static bool run_message(ComparedRun *member, char words[1280])
 
 static bool simulator_message(ComparedRun *member, char words[1280])
 {
-    static SimulatorStatus status;
+    SimulatorStatus status;
     simulator_status(member->simulator, &status);
     const bool news = status.messages != member->messages;
     member->messages = status.messages;

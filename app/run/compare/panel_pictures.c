@@ -1,4 +1,4 @@
-#include "app/run/compare/panel_pictures.h"
+#include "app/run/compare/compare.h"
 
 #include "render/frame/view.h"
 
@@ -81,8 +81,8 @@ static bool open_prefetch(PictureSource *source, Error *error)
 static bool uploads_fit(PictureSource *source, Error *error)
 {
     WorldInfo info;
-    world_info(source->session->world, &info);
-    if (info.capacity <= source->room)
+    world_info(source->session->run.world, &info);
+    if (info.capacity <= source->capacity)
         return true;
     upload_destroy(source->upload_interpolated);
     upload_destroy(source->upload);
@@ -90,10 +90,10 @@ static bool uploads_fit(PictureSource *source, Error *error)
     if (source->interpolates &&
         !(source->upload_interpolated = upload_create(2 * info.capacity, source->attributes, error)))
         return false;
-    if (!world_shares(source->session->world) &&
+    if (!world_shares(source->session->run.world) &&
         !(source->upload = upload_create(info.capacity, upload_attributes(source->attributes), error)))
         return false;
-    source->room = info.capacity;
+    source->capacity = info.capacity;
     return true;
 }
 
@@ -102,7 +102,7 @@ static bool source_open(PictureSource *source, bool interpolates, Error *error)
     const Session *session = source->session;
     if (!session)
         return open_prefetch(source, error);
-    source->interpolates = interpolates && session->scene.world.step_mode == STEP_FIXED;
+    source->interpolates = interpolates && session->run.scene.world.step_mode == STEP_FIXED;
     return uploads_fit(source, error);
 }
 
@@ -129,7 +129,7 @@ bool panel_pictures_open(PanelPictures *pictures, const PicturePanel panels[], i
             pictures->sources[known].scene = panel->scene;
         source_serve(&pictures->sources[pictures->source_of[i]], panel->view);
         pictures->views[i] = view_in_file(panel->view);
-        subjects[i] = (Subject){&pictures->views[i], panel->session ? &panel->session->scene.world
+        subjects[i] = (Subject){&pictures->views[i], panel->session ? &panel->session->run.scene.world
                                                                     : &panel->recorded->scene.world};
         pictures->solids[i] = subjects[i].world->solid_count;
     }
@@ -166,7 +166,7 @@ bool panel_pictures_interpolates(const PanelPictures *pictures, const Session *s
 bool panel_pictures_keep(PanelPictures *pictures, const Session *session, Error *error)
 {
     PictureSource *source = source_of(pictures, session);
-    return state_copy_read(&source->before, session->world, source->attributes) ||
+    return state_copy_read(&source->before, session->run.world, source->attributes) ||
            error_set(error, "out of memory for a picture between two states");
 }
 
@@ -177,9 +177,10 @@ static bool take_between(PictureSource *source, double time, Error *error)
     StateCopy *between = &source->between;
     if (!uploads_fit(source, error))
         return false;
-    if (!state_copy_read(&source->after, session->world, attributes) ||
+    if (!state_copy_read(&source->after, session->run.world, attributes) ||
         !state_copy_reserve(between, source->before.state.count + source->after.state.count, attributes) ||
-        !interpolate_states(&source->before, &source->after, session->scene.world.periodic, time, between))
+        !interpolate_states(&source->before, &source->after, session->run.scene.world.periodic, time,
+                            between))
         return error_set(error, "out of memory for a picture between two states");
     return upload_write_arrays(source->upload_interpolated, &between->arrays, &between->state, error) &&
            upload_take(source->upload_interpolated, &source->state);
@@ -187,7 +188,7 @@ static bool take_between(PictureSource *source, double time, Error *error)
 
 static bool take_present(PictureSource *source, Error *error)
 {
-    World *world = source->session->world;
+    World *world = source->session->run.world;
     if (!uploads_fit(source, error))
         return false;
     if (!world_shares(world))
@@ -199,7 +200,7 @@ static bool take_present(PictureSource *source, Error *error)
 bool panel_pictures_watch(PanelPictures *pictures, const Session *session, double time, Error *error)
 {
     PictureSource *source = source_of(pictures, session);
-    const double now = session->info.time;
+    const double now = session->run.info.time;
     if (isinf(source->every) || now < time - source->before_picture ||
         now < source->watched + 0.999 * source->every)
         return true;
@@ -264,15 +265,16 @@ static bool take(const PanelPictures *pictures, PictureSource *source, double ti
 {
     const Session *session = source->session;
     if (!session)
-        return take_recorded(pictures, source, source->scene ? source->scene->info.time : time, fresh, error);
+        return take_recorded(pictures, source, source->scene ? source->scene->run.info.time : time, fresh,
+                             error);
     const bool between = source->interpolates && source->before.state.count > 0 &&
-                         session->info.time > time + 1e-6 * session->scene.world.dt;
-    if (!between && source->taken && !source->is_interpolated && source->state.step == session->info.step)
+                         session->run.info.time > time + 1e-6 * session->run.scene.world.dt;
+    if (!between && source->taken && !source->is_interpolated && source->state.step == session->run.info.step)
         return true;
     if (!(between ? take_between(source, time, error) : take_present(source, error)))
         return false;
     *fresh = source->taken = true;
-    source->watched = between ? source->watched : session->info.time;
+    source->watched = between ? source->watched : session->run.info.time;
     source->is_interpolated = between;
     return true;
 }
@@ -289,7 +291,7 @@ bool panel_pictures_take(PanelPictures *pictures, double time, Error *error)
 static bool follow_solids(PanelPictures *pictures, int panel, Error *error)
 {
     const Session *session = pictures->sources[pictures->source_of[panel]].session;
-    const WorldDef *def = session ? &session->scene.world : NULL;
+    const WorldDef *def = session ? &session->run.scene.world : NULL;
     bool changed = def && pictures->solids[panel] != def->solid_count;
     for (int i = 0; def && i < def->solid_count; i++)
         changed |= def->solids[i].hand.moved;

@@ -1,4 +1,6 @@
-#include "app/run/measure/metric.h"
+#include "app/run/measure/measure.h"
+
+#include "sim/step/world.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,7 +24,7 @@ bool cloud_read(Cloud *cloud, World *world)
 {
     WorldInfo info;
     world_info(world, &info);
-    if (!cloud_make(cloud, info.count))
+    if (!cloud_make(cloud, world_held(world)))
         return false;
     cloud->spacing = info.spacing;
     cloud->support_radius = info.support_radius;
@@ -160,11 +162,11 @@ static void add_beside(const Chains *chains, const Cloud *cloud, const int64_t c
     }
 }
 
-bool metric_common_motion(const Cloud *cloud, double h, size_t stride, double *together)
+bool metric_common_motion(const Cloud *cloud, double h, size_t stride, double *common, double *kinetic)
 {
     Chains chains;
     const bool ok = chains_make(&chains, cloud, h);
-    double alike = 0, all = 0;
+    *common = *kinetic = 0;
     for (size_t i = 0; ok && i < cloud->count; i += stride) {
         const float *v = cloud->velocity + 4 * i;
         double sum[4] = {0};
@@ -177,11 +179,10 @@ bool metric_common_motion(const Cloud *cloud, double h, size_t stride, double *t
                        (int64_t[]){cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1}, i,
                        sum);
         for (int k = 0; k < 3; k++) {
-            all += (double)v[k] * (double)v[k];
-            alike += (double)v[k] * (sum[3] > 0 ? sum[k] / sum[3] : (double)v[k]);
+            *kinetic += (double)v[k] * (double)v[k];
+            *common += (double)v[k] * (sum[3] > 0 ? sum[k] / sum[3] : (double)v[k]);
         }
     }
-    *together = all > 0 ? alike / all : 1;
     chains_free(&chains);
     return ok;
 }
@@ -205,17 +206,17 @@ void compression_add(CompressionTally *tally, const Cloud *cloud, const WorldDef
         tally->thinned = fmax(tally->thinned, -change);
         tally->bins[bin_of(pressed)]++;
     }
-    tally->particles += cloud->count;
+    tally->particles += (double)cloud->count;
     tally->states++;
 }
 
 /* Returns the upper end of the percentile's bin. */
 static double percentile(const CompressionTally *tally, double fraction)
 {
-    const double below = fraction * (double)tally->particles;
+    const double below = fraction * tally->particles;
     double count = 0;
     for (int b = 0; b < COMPRESSION_BINS; b++) {
-        count += (double)tally->bins[b];
+        count += tally->bins[b];
         if (count >= below)
             return fmin(b == 0 ? 0 : LEAST * exp2((b + 1) / BINS_AN_OCTAVE), tally->most);
     }
@@ -226,6 +227,6 @@ CompressionFigures compression_figures(const CompressionTally *tally)
 {
     if (tally->particles == 0)
         return (CompressionFigures){0};
-    return (CompressionFigures){tally->sum / (double)tally->particles, percentile(tally, 0.999), tally->most,
+    return (CompressionFigures){tally->sum / tally->particles, percentile(tally, 0.999), tally->most,
                                 1 - tally->thinned};
 }

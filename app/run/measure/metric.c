@@ -1,4 +1,4 @@
-#include "app/run/measure/metric.h"
+#include "app/run/measure/measure.h"
 
 #include "sim/step/method.h"
 
@@ -171,21 +171,24 @@ double metric_hydrostatic(const Cloud *cloud, double density, double gravity, Cu
 double metric_paraboloid(const Cloud *cloud, double width, Curve *points)
 {
     enum { CELLS = 256 };
-    static size_t top[CELLS][CELLS]; /* index + 1 of the highest particle */
     Curve all = {.count = 0};
     const int n = (int)fmin(width / cloud->spacing + 0.5, CELLS);
-    memset(top, 0, sizeof top);
+    size_t *top =
+        calloc((size_t)n * (size_t)n + 1, sizeof *top); /* index + 1 of each cell's highest particle */
+    if (!top)
+        return NAN;
     for (size_t i = 0; i < cloud->count; i++) {
         const float *x = cloud->position + 4 * i;
         const int a = (int)floor((x[0] / width + 0.5) * n), b = (int)floor((x[2] / width + 0.5) * n);
+        const int cell = a * n + b;
         if (a > 0 && a < n - 1 && b > 0 && b < n - 1 &&
-            (!top[a][b] || x[1] > cloud->position[4 * (top[a][b] - 1) + 1]))
-            top[a][b] = i + 1;
+            (!top[cell] || x[1] > cloud->position[4 * (top[cell] - 1) + 1]))
+            top[cell] = i + 1;
     }
     for (int cell = 0; cell < n * n; cell++) {
-        if (!top[cell / n][cell % n])
+        if (!top[cell])
             continue;
-        const float *x = cloud->position + 4 * (top[cell / n][cell % n] - 1);
+        const float *x = cloud->position + 4 * (top[cell] - 1);
         const double r2 = (double)x[0] * x[0] + (double)x[2] * x[2];
         curve_add(&all, r2, x[1]);
         if (points)
@@ -193,6 +196,7 @@ double metric_paraboloid(const Cloud *cloud, double width, Curve *points)
     }
     const double slope = curve_slope(&all);
     curve_free(&all);
+    free(top);
     return slope;
 }
 

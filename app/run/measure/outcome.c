@@ -1,7 +1,6 @@
-#include "app/run/measure/outcome.h"
+#include "app/run/measure/measure.h"
 
 #include "app/base/file.h"
-#include "app/run/measure/metric.h"
 #include "sim/kernel/kernel.h"
 #include "sim/solids/solid.h"
 #include "sim/step/method.h"
@@ -185,7 +184,7 @@ void outcome_json(json_t *object, const Outcome *outcome)
 }
 
 /* True if only gravity does work on the fluid, so that the energy is known and never grows: as in
-   sim/step/sentinel.h, for a box at rest. */
+   sim/step/world.h, for a box at rest. */
 static bool is_left_alone(const WorldDef *def)
 {
     bool alone = def->motion_count == 0 && def->drain_count == 0 &&
@@ -236,19 +235,32 @@ static bool is_beyond(const WorldDef *def, const WorldInfo *info, const SolidPos
     return beyond;
 }
 
+/* Sums over particles: on MPI ranks of the own share first, then of all. */
+typedef struct PlaceSums {
+    double close, beyond;   /* particles, as of OutcomeSample */
+    double pressed;         /* compression above rest density, fractions */
+    double mass;            /* kg; in 2D for a depth of 1 m */
+    double speed2;          /* m2/s2 */
+    double common, kinetic; /* as of metric_common_motion */
+    double failed;          /* ranks without memory */
+} PlaceSums;
+
+static void sum_over_ranks(OutcomeSum *sum, PlaceSums *places)
+{
+    if (sum)
+        sum((double *)places, sizeof *places / sizeof(double));
+}
+
 /* Mean speed of the particles, over the speed for a jump of OUTCOME_JUMP spacings under gravity, or over
    OUTCOME_OF_SOUND. */
-static double jump_of(const WorldDef *def, const Cloud *cloud)
+static double jump_of(const WorldDef *def, double speed2, size_t count)
 {
     const double *g = def->gravity, weight = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
     const bool sounds = !method_find(def->method)->incompressible;
     const double enough = weight > 0 ? sqrt(2 * weight * OUTCOME_JUMP * def->spacing)
                           : sounds   ? OUTCOME_OF_SOUND * def->sound_speed
                                      : INFINITY;
-    double sum = 0;
-    for (size_t i = 0; i < 4 * cloud->count; i++)
-        sum += i % 4 < 3 ? (double)cloud->velocity[i] * (double)cloud->velocity[i] : 0;
-    return cloud->count > 0 ? sqrt(sum / (double)cloud->count) / enough : 0;
+    return count > 0 ? sqrt(speed2 / (double)count) / enough : 0;
 }
 
 /* True if the box moves: thrown fluid moves in all directions, too. */
@@ -260,36 +272,52 @@ static bool is_thrown(const BoxState *box)
     return speed > 0;
 }
 
-/* Checks every `stride`-th particle for clumps, scaled to all; leaks and compression of all particles.
-   `mass`: kg; in 2D for a depth of one metre. */
-static bool look_at_places(OutcomeSample *look, const WorldDef *def, const WorldInfo *info, size_t stride,
-                           double *mass, World *world)
+static void add_places(PlaceSums *sums, const WorldDef *def, const WorldInfo *info, const Cloud *cloud)
 {
-    Cloud cloud = {0};
     SolidPose pose[SOLIDS_MAX];
-    double pressed = 0;
-    *mass = 0;
     for (int i = 0; i < def->solid_count; i++) {
         BoxState at;
         solid_pose_in(&def->solids[i], info->time, &info->floating[i], &at);
         solid_pose_of(&at, &pose[i]);
     }
-    const bool ok =
-        cloud_read(&cloud, world) && metric_close(&cloud, OUTCOME_NEAR * def->spacing, stride, &look->close);
-    look->jump = ok && !is_thrown(&info->box) ? jump_of(def, &cloud) : 0;
-    const bool moves = look->jump > 1; /* at lower speeds no boiling is possible */
-    for (size_t i = 0; ok && i < cloud.count; i++) {
-        const double density = def->fluids[cloud.fluid[i]].density;
-        look->beyond += is_beyond(def, info, pose, cloud.position + 4 * i);
-        pressed += fmax((double)cloud.density[i] / density - 1, 0);
-        *mass += density * pow(def->spacing, def->dimensions);
+    for (size_t i = 0; i < cloud->count; i++) {
+        const double density = def->fluids[cloud->fluid[i]].density;
+        sums->beyond += is_beyond(def, info, pose, cloud->position + 4 * i);
+        sums->pressed += fmax((double)cloud->density[i] / density - 1, 0);
+        sums->mass += density * pow(def->spacing, def->dimensions);
+        for (size_t k = 4 * i; k < 4 * i + 3; k++)
+            sums->speed2 += (double)cloud->velocity[k] * (double)cloud->velocity[k];
     }
-    look->close = look->close * stride < look->count ? look->close * stride : look->count;
-    look->pressed = cloud.count > 0 ? pressed / (double)cloud.count : 0;
-    const bool all = ok && (!moves || metric_common_motion(&cloud, def->spacing * def->support, 4 * stride,
-                                                           &look->together));
+}
+
+/* Checks every `stride`-th particle for clumps, scaled to all; leaks and compression of all particles.
+   `mass`: kg; in 2D for a depth of 1 m. */
+static bool look_at_places(OutcomeSample *look, const WorldDef *def, const WorldInfo *info, size_t stride,
+                           OutcomeSum *sum, double *mass, World *world)
+{
+    Cloud cloud = {0};
+    PlaceSums places = {0}, motion = {0};
+    size_t close = 0;
+    if (cloud_read(&cloud, world) && metric_close(&cloud, OUTCOME_NEAR * def->spacing, stride, &close))
+        add_places(&places, def, info, &cloud);
+    else
+        places.failed = 1;
+    places.close = (double)close;
+    sum_over_ranks(sum, &places);
+    close = (size_t)places.close;
+    look->close = close * stride < look->count ? close * stride : look->count;
+    look->beyond = (size_t)places.beyond;
+    look->pressed = look->count > 0 ? places.pressed / (double)look->count : 0;
+    look->jump = is_thrown(&info->box) ? 0 : jump_of(def, places.speed2, look->count);
+    *mass = places.mass;
+    if (places.failed == 0 && look->jump > 1) { /* at lower speeds no boiling is possible */
+        motion.failed = !metric_common_motion(&cloud, def->spacing * def->support, 4 * stride, &motion.common,
+                                              &motion.kinetic);
+        sum_over_ranks(sum, &motion);
+        look->together = motion.kinetic > 0 ? motion.common / motion.kinetic : 1;
+    }
     cloud_free(&cloud);
-    return all;
+    return places.failed == 0 && motion.failed == 0;
 }
 
 /* Returns the facts known without reading particles: their number and speeds. */
@@ -313,32 +341,24 @@ static OutcomeSample look_from(const WorldDef *def, const WorldInfo *info)
     return look;
 }
 
-static bool look_with(OutcomeSample *look, const WorldDef *def, bool moved, size_t most, World *world)
+static bool look_with(OutcomeSample *look, const WorldDef *def, bool moved, size_t most, OutcomeSum *sum,
+                      World *world)
 {
     WorldInfo info;
     double mass;
     world_info(world, &info);
     *look = look_from(def, &info);
-    if (!look_at_places(look, def, &info, 1 + info.count / most, &mass, world))
+    if (!look_at_places(look, def, &info, 1 + info.count / most, sum, &mass, world))
         return false;
     if (!moved && is_left_alone(def))
         look_at_energy(look, def, mass, world);
     return true;
 }
 
-/* A cheaper look at positions alone, for frequent use: all particles for leaks, but about two thousand for
-   clumps; and the energy unless the box is `moved`. Takes about a third of a step's time. Returns false if
-   memory is short. */
-static bool outcome_sample_positions(OutcomeSample *look, const WorldDef *def, bool moved, World *world)
-{
-    static const size_t LOOKED_AT = 2000;
-    return look_with(look, def, moved, LOOKED_AT, world);
-}
-
 bool outcome_sample(OutcomeHistory *history, const WorldDef *def, bool moved, World *world)
 {
     OutcomeSample look;
-    if (!look_with(&look, def, moved, SIZE_MAX, world))
+    if (!look_with(&look, def, moved, SIZE_MAX, NULL, world))
         return false;
     history->count += history->count < OUTCOME_SAMPLES_MAX;
     history->look[history->count - 1] = look;
@@ -356,7 +376,7 @@ void outcome_end(OutcomeHistory *history, const World *world)
 static const char *advice_on_clumps(const WorldDef *def)
 {
     const char *kernel = method_kernels(def).slope->name;
-    const bool chosen = !method_find(def->method)->incompressible && shape_kernel_find(kernel);
+    const bool chosen = method_find(def->method)->carries_density && shape_kernel_find(kernel);
     if (!chosen)
         return "; use a particles.support of 2.5 or less, or shorter steps";
     return strcmp(kernel, "cubic") == 0
@@ -409,22 +429,26 @@ static void judge(const FluidWatch *watch, const OutcomeSample *now, Outcome *ou
 /* Removes reported failures from a look, so that they do not hide other kinds. */
 static OutcomeSample untold(const FluidWatch *watch, OutcomeSample look)
 {
-    if (watch->told >> OUTCOME_NOISY & 1)
+    if (watch->reported >> OUTCOME_NOISY & 1)
         look.energy = (double)NAN;
-    if (watch->told >> OUTCOME_BOILS & 1)
+    if (watch->reported >> OUTCOME_BOILS & 1)
         look.jump = 0;
-    if (watch->told >> OUTCOME_FAST & 1)
+    if (watch->reported >> OUTCOME_FAST & 1)
         look.fastest = 0;
-    if (watch->told >> OUTCOME_SQUEEZED & 1)
+    if (watch->reported >> OUTCOME_SQUEEZED & 1)
         look.pressed = 0;
-    if (watch->told >> OUTCOME_CLUMPS & 1)
+    if (watch->reported >> OUTCOME_CLUMPS & 1)
         look.close = 0;
-    if (watch->told >> OUTCOME_LEAKS & 1)
+    if (watch->reported >> OUTCOME_LEAKS & 1)
         look.beyond = look.lost = 0;
-    if (watch->told >> OUTCOME_DIVERGES & 1)
+    if (watch->reported >> OUTCOME_DIVERGES & 1)
         look.stuck = false;
     return look;
 }
+
+/* Number of particles checked for clumps by a watch; leaks are checked for all. A look takes about a third of
+   a step's time. */
+static const size_t LOOKED_AT = 2000;
 
 bool fluid_watch(FluidWatch *watch, const WorldDef *def, World *world, char words[FLUID_WATCH_WORDS])
 {
@@ -433,7 +457,8 @@ bool fluid_watch(FluidWatch *watch, const WorldDef *def, World *world, char word
     Outcome now;
     world_info(world, &info);
     const OutcomeSample known = outcome_of_info(def, &info);
-    const bool fast = known.sound > 0 && known.fastest > known.sound && !(watch->told >> OUTCOME_FAST & 1);
+    const bool fast =
+        known.sound > 0 && known.fastest > known.sound && !(watch->reported >> OUTCOME_FAST & 1);
     if (info.within_frame || (info.step < watch->next && !fast))
         return false;
     watch->next = info.step + (info.step < FLUID_WATCH_STEPS   ? FLUID_WATCH_STEPS
@@ -441,7 +466,7 @@ bool fluid_watch(FluidWatch *watch, const WorldDef *def, World *world, char word
                                                                : FLUID_WATCH_LATER);
     if (world_on_gpu(def)) /* without waiting for the GPU */
         look = known;
-    else if (!outcome_sample_positions(&look, def, !watch->closed, world))
+    else if (!look_with(&look, def, !watch->closed, LOOKED_AT, watch->sum, world))
         return false; /* memory is short: retry at the next look */
     else if (!watch->looked)
         begin(watch, &look);
@@ -453,7 +478,7 @@ bool fluid_watch(FluidWatch *watch, const WorldDef *def, World *world, char word
     judge(watch, &look, &now);
     if (now.kind <= OUTCOME_HOLDS)
         return false;
-    watch->told |= 1u << now.kind;
+    watch->reported |= 1u << now.kind;
     snprintf(words, FLUID_WATCH_WORDS, "t = %.4g s: %s: %s%s", now.time, outcome_word(now.kind), now.words,
              advice(now.kind, def));
     return true;

@@ -1,7 +1,7 @@
 /* Keys of the probes. */
-#include "app/run/measure/probe.h"
+#include "app/run/measure/measure.h"
 
-#include "app/run/measure/probe_def.h"
+#include "app/run/measure/measure_def.h"
 #include "sim/base/key_rows.h"
 
 #include <math.h>
@@ -76,7 +76,7 @@ bool probe_list_has_forces(const ProbeList *list)
 
 /* clang-format off */
 const Key probe_keys[] = {
-    LIST("probes", I, 0, PROBES_MAX, AT(probe), AT(count), ProbeDef, probe_init,
+    LIST("probes", I | KEY_POINTER, 0, PROBES_MAX, AT(probe), AT(count), ProbeDef, probe_init,
          "what slosh run --probes FILE reads of the fluid after each step, and the panel shows; at rest in the box's frame; each has one kind"),
     TEXT("probes[].name", R | I, PROBE_NAME_SIZE, PROBE(name), NULL, "letters, digits and _; each its own: columns are called by it"),
     PROBE_KIND_LIST(PROBE_ROWS)
@@ -103,11 +103,11 @@ typedef struct Probe {
 
 struct Probes {
     int count, sensor_count, column_count;
-    Probe probe[PROBES_MAX];
     Sensors *sensors;
     SensorReading *reading; /* one per sensor */
     ProbeColumn *column;
-    Forces felt; /* the last forces; 0 s before the first */
+    Forces forces; /* the last forces; 0 s before the first */
+    Probe probe[];
 };
 
 void probes_destroy(Probes *probes)
@@ -265,7 +265,7 @@ static bool make_sensors(Probes *probes, const WorldDef *def)
 
 Probes *probes_create(const ProbeList *list, const WorldDef *def)
 {
-    Probes *probes = calloc(1, sizeof *probes);
+    Probes *probes = calloc(1, sizeof *probes + (size_t)list->count * sizeof *probes->probe);
     if (!probes)
         return NULL;
     probes->count = list->count;
@@ -348,11 +348,11 @@ static float *put(float *out, const ProbeDef *def, const SensorReading *reading,
     return out;
 }
 
-static float *put_push(float *out, const Probe *probe, const Forces *felt)
+static float *put_push(float *out, const Probe *probe, const Forces *forces)
 {
-    const Push *push = probe->on < 0 ? &felt->box : &felt->solid[probe->on];
+    const Push *push = probe->on < 0 ? &forces->box : &forces->solid[probe->on];
     for (int k = 0; k < PUSH; k++)
-        *out++ = felt->seconds > 0 ? (float)(k < 3 ? push->force[k] : push->torque[k - 3]) : NAN;
+        *out++ = forces->seconds > 0 ? (float)(k < 3 ? push->force[k] : push->torque[k - 3]) : NAN;
     return out;
 }
 
@@ -364,14 +364,14 @@ bool probes_cover(const Probes *probes, const float x[3])
 void probes_read(Probes *probes, const Cloud *cloud, const Forces *forces, float out[])
 {
     if (forces && forces->seconds > 0)
-        probes->felt = *forces;
+        probes->forces = *forces;
     sensors_read(probes->sensors, cloud, probes->reading);
     for (const Probe *p = probes->probe; p < probes->probe + probes->count; p++) {
         const SensorReading *reading = probes->reading + p->first;
         if (p->def.kind == PROBE_HEIGHT)
             *out++ = (float)height_of(p, reading);
         else if (p->def.kind == PROBE_FORCE)
-            out = put_push(out, p, &probes->felt);
+            out = put_push(out, p, &probes->forces);
         else if (p->def.kind == PROBE_PLANE)
             out = put(out, &p->def, reading, p->count);
         else

@@ -1,4 +1,5 @@
-#include "app/run/measure/probe.h"
+#include "app/run/measure/measure.h"
+
 #include "sim/solids/solid.h"
 
 #include <math.h>
@@ -7,7 +8,7 @@
 
 /* FIELDS: pressure, density, velocity (3). BALL_POINTS: lattice points along a ball's radius, to measure
    its full weight. CELLS_MAX: most cells of the grid. */
-enum { FIELDS = 5, BALL_POINTS = 8, CELLS_MAX = 1 << 18, IMAGES_MAX = 8 };
+enum { FIELDS = 5, BALL_POINTS = 8, CELLS_MAX = 1 << 18, MIRRORED_MAX = 8 };
 
 /* Greatest trusted leverage: squared distance of the sensor from the particles' mean position, in units of
    their spread. About 4 on a wall, 12 in a corner. */
@@ -228,7 +229,7 @@ Sensors *sensors_create(const Sensor *sensor, int count, const WorldDef *def)
     s->sensor = malloc(n * sizeof *s->sensor);
     s->full = malloc(n * sizeof *s->full);
     s->moments = malloc(n * sizeof *s->moments);
-    s->eye = malloc(IMAGES_MAX * n * sizeof *s->eye);
+    s->eye = malloc(MIRRORED_MAX * n * sizeof *s->eye);
     if (!s->sensor || !s->full || !s->moments || !s->eye) {
         sensors_destroy(s);
         return NULL;

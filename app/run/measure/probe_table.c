@@ -1,5 +1,6 @@
+#include "app/run/measure/measure.h"
+
 #include "app/base/file.h"
-#include "app/run/measure/probe.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -21,25 +22,26 @@ void probe_window_free(ProbeWindow *window)
 /* Moves the kept rows to the start of the memory; doubles the memory if more than half full. */
 static bool make_room(ProbeWindow *w)
 {
-    const size_t columns = (size_t)w->columns, room = 2 * w->count >= w->room ? 2 * w->room + 64 : w->room;
+    const size_t columns = (size_t)w->columns,
+                 capacity = 2 * w->count >= w->capacity ? 2 * w->capacity + 64 : w->capacity;
     if (w->first > 0) {
         memmove(w->time, w->time + w->first, w->count * sizeof *w->time);
         memmove(w->value, w->value + w->first * columns, w->count * columns * sizeof *w->value);
         w->first = 0;
     }
-    if (room == w->room)
+    if (capacity == w->capacity)
         return true;
-    double *time = realloc(w->time, room * sizeof *time);
+    double *time = realloc(w->time, capacity * sizeof *time);
     w->time = time ? time : w->time;
-    float *value = realloc(w->value, room * columns * sizeof *value + 1);
+    float *value = realloc(w->value, capacity * columns * sizeof *value + 1);
     w->value = value ? value : w->value;
-    w->room = time && value ? room : w->room;
+    w->capacity = time && value ? capacity : w->capacity;
     return time && value;
 }
 
 bool probe_window_add(ProbeWindow *w, double time, const float value[])
 {
-    if (w->first + w->count == w->room && !make_room(w))
+    if (w->first + w->count == w->capacity && !make_room(w))
         return false;
     const size_t at = w->first + w->count++;
     w->time[at] = time;
@@ -174,12 +176,12 @@ static bool read_row(const ProbeTable *table, const char *line, double *time, fl
 static bool keep_rows(ProbeTable *table, double keep, Error *error)
 {
     char *line = NULL;
-    size_t room = 0;
+    size_t capacity = 0;
     float *value = malloc(((size_t)table->columns + 1) * sizeof *value);
     double time;
     bool memory = value != NULL;
     long end = ftell(table->file);
-    while (memory && getline(&line, &room, table->file) > 0 && read_row(table, line, &time, value) &&
+    while (memory && getline(&line, &capacity, table->file) > 0 && read_row(table, line, &time, value) &&
            time <= keep * (1 + 1e-9)) {
         memory = take_row(table, time, value);
         end = ftell(table->file);
@@ -195,8 +197,8 @@ static bool keep_rows(ProbeTable *table, double keep, Error *error)
 static bool has_header(FILE *file, const char *header)
 {
     char *line = NULL;
-    size_t room = 0;
-    const bool same = getline(&line, &room, file) > 0 && strcmp(line, header) == 0;
+    size_t capacity = 0;
+    const bool same = getline(&line, &capacity, file) > 0 && strcmp(line, header) == 0;
     free(line);
     return same;
 }
@@ -276,15 +278,15 @@ bool probe_table_open(ProbeTable *table, const char *path, const Probes *probes,
 bool probe_table_add(ProbeTable *table, double time, const float value[])
 {
     const size_t columns = (size_t)table->columns;
-    if (table->waiting == table->room) {
-        const size_t room = 2 * table->room + 16;
-        double *times = realloc(table->time, room * sizeof *times);
+    if (table->waiting == table->capacity) {
+        const size_t capacity = 2 * table->capacity + 16;
+        double *times = realloc(table->time, capacity * sizeof *times);
         table->time = times ? times : table->time;
-        float *values = realloc(table->value, room * columns * sizeof *values + 1);
+        float *values = realloc(table->value, capacity * columns * sizeof *values + 1);
         table->value = values ? values : table->value;
         if (!times || !values)
             return false;
-        table->room = room;
+        table->capacity = capacity;
     }
     table->time[table->waiting] = time;
     memcpy(table->value + table->waiting++ * columns, value, columns * sizeof *value);

@@ -1,4 +1,4 @@
-#include "app/run/playback/interpolate.h"
+#include "app/run/playback/playback.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,13 +13,13 @@ void state_copy_free(StateCopy *copy)
     free(a->id);
     for (int s = 0; s < SCALAR_STATE_COUNT; s++)
         free(a->scalar[s]);
-    *copy = (StateCopy){.room = 0};
+    *copy = (StateCopy){.capacity = 0};
 }
 
 bool state_copy_reserve(StateCopy *copy, size_t count, unsigned attributes)
 {
     ParticleArrays *a = &copy->arrays;
-    if (copy->room >= count && a->position)
+    if (copy->capacity >= count && a->position)
         return true;
     state_copy_free(copy);
     a->position = malloc((count + 1) * 4 * sizeof *a->position);
@@ -32,7 +32,7 @@ bool state_copy_reserve(StateCopy *copy, size_t count, unsigned attributes)
             a->scalar[s] = malloc((count + 1) * sizeof *a->scalar[s]);
             ok = ok && a->scalar[s];
         }
-    copy->room = count;
+    copy->capacity = count;
     return ok;
 }
 

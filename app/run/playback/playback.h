@@ -1,12 +1,41 @@
-/* Playback of a snapshot file: scene and states (Recorded), steps read ahead on a thread (Prefetch), and the
-   time to show (Player). */
+/* Recorded runs: a state between two steps, and the playback of a snapshot file, with scene and states
+   (Recorded), steps read ahead on a thread (Prefetch), and the time to show (Player). */
 #ifndef APP_RUN_PLAYBACK_PLAYBACK_H
 #define APP_RUN_PLAYBACK_PLAYBACK_H
 
 #include "app/files/snapshot.h"
-#include "app/run/playback/interpolate.h"
 #include "app/scene/scene.h"
-#include "render/particles/upload.h"
+#include "render/particles/particles.h"
+#include "sim/gpu/particle_buffers.h"
+#include "slosh/world.h"
+
+/* Interpolation between two states: particles and box at a time between two steps. */
+
+/* A state in memory; empty when zeroed. */
+typedef struct StateCopy {
+    ParticleBuffers state; /* attributes unused */
+    ParticleArrays arrays; /* owned; velocity, fluid and id always, plus the requested scalars */
+    size_t capacity;       /* particles */
+} StateCopy;
+
+void state_copy_free(StateCopy *copy);
+
+/* Makes room for `count` particles with the attributes (PARTICLE_*). Returns false if memory is short. */
+bool state_copy_reserve(StateCopy *copy, size_t count, unsigned attributes);
+
+/* Reads the world's present state; waits for a GPU. Returns false if memory is short. */
+bool state_copy_read(StateCopy *copy, World *world, unsigned attributes);
+
+/* Interpolates both states at `time` (s). A particle, found by its id, follows the cubic curve with its
+   positions and velocities at both states, the short way across periodic sides. The box is interpolated
+   separately, scalars linearly. A particle of one state only (emitted, drained) moves on with its velocity,
+   and exists in the half of the step nearer to its state. `out` has room for the particles of both states.
+   Returns false if memory is short. */
+bool interpolate_states(const StateCopy *before, const StateCopy *after, const bool periodic[3], double time,
+                        StateCopy *out);
+
+/* Playback of a snapshot file: scene and states (Recorded), steps read ahead on a thread (Prefetch), and the
+   time to show (Player). */
 
 /* A file of snapshots, ready for views: scene, times, states.
 
@@ -72,17 +101,17 @@ bool recorded_scene(const SnapshotReader *reader, const char *path, const SceneS
 
    All functions here belong to one other thread, the thread of the GL context. */
 
-enum { PREFETCH_KEPT_LEAST = 3, PREFETCH_KEPT_MOST = 32 };
+enum { PREFETCH_CACHE_LEAST = 3, PREFETCH_CACHE_MOST = 32 };
 
 typedef struct Prefetch Prefetch;
 
 typedef struct PrefetchSetup {
     Recorded *recorded;  /* taken over and emptied if the prefetch could be made */
     unsigned attributes; /* PARTICLE_* read by pictures; attributes missing in the file are left out */
-    size_t
-        bytes; /* memory for read steps: as many as fit, within PREFETCH_KEPT_LEAST and PREFETCH_KEPT_MOST */
-    bool at_or_after;   /* show the first step at or after the time, or the last step */
-    void (*wake)(void); /* called on its thread on any news; may be NULL */
+    size_t bytes;        /* memory for read steps: as many as fit, within PREFETCH_CACHE_LEAST and
+                            PREFETCH_CACHE_MOST */
+    bool at_or_after;    /* show the first step at or after the time, or the last step */
+    void (*wake)(void);  /* called on its thread on any news; may be NULL */
 } PrefetchSetup;
 
 /* Starts the thread; nothing is shown yet. Returns NULL if memory is short. */
@@ -107,7 +136,7 @@ typedef struct PrefetchStatus {
     uint64_t step;        /* the shown step's number in the run */
     bool replaced;        /* another file has the name now; the opened file is still shown */
     size_t read, found;   /* steps read; steps already in memory when requested */
-    size_t kept;          /* greatest count of kept steps */
+    size_t cached_most;   /* greatest count of kept steps */
 } PrefetchStatus;
 
 /* Call before prefetch_take: allocates more GPU memory for a step with more particles than before. Returns

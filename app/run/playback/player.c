@@ -1,7 +1,5 @@
 #include "app/run/playback/playback.h"
 
-#include "render/renderer.h"
-
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -21,7 +19,7 @@ struct Player {
     bool paused, loop, wants;
     int steps; /* waiting steps */
     unsigned failures;
-    char told[sizeof(Error)]; /* the last reported failure */
+    char reported[sizeof(Error)]; /* the last reported failure */
     bool reported_replaced;
     char message[1024]; /* of the last failure */
 };
@@ -150,10 +148,10 @@ static void listen(Player *player)
             player->known.path);
     player->reported_replaced = status->replaced;
     if (!status->failed)
-        *player->told = 0;
-    if (!status->failed || strcmp(status->message, player->told) == 0)
+        *player->reported = 0;
+    if (!status->failed || strcmp(status->message, player->reported) == 0)
         return;
-    snprintf(player->told, sizeof player->told, "%s", status->message);
+    snprintf(player->reported, sizeof player->reported, "%s", status->message);
     fail(player, "%s", status->message);
 }
 

@@ -2,7 +2,7 @@
 
 #include "app/files/snapshot.h"
 #include "render/frame/view.h"
-#include "render/particles/derived.h"
+#include "render/particles/particles.h"
 #include "sim/gpu/particle_buffers.h"
 
 #include <math.h>
@@ -85,14 +85,14 @@ static void drop_beside(Recorded *recorded, const SceneSettings *settings, Notes
     const bool said = sets_views(settings);
     for (int i = 0; i < recorded->scene.view_count; i++) {
         ViewDef *view = &recorded->scene.views[i];
-        if (*view->set || (*view->file && !said))
+        if (view->set || (view->file && !said))
             notes_add(
-                notes, "%.200s: views[%d].%s is left out: %s", recorded->path, i, *view->set ? "set" : "file",
-                *view->set ? "nothing is simulated beside a recorded run"
-                           : "what stood beside this run is another file; --set 'views=[{}, {file: ...}]'");
+                notes, "%.200s: views[%d].%s is left out: %s", recorded->path, i, view->set ? "set" : "file",
+                view->set ? "nothing is simulated beside a recorded run"
+                          : "what stood beside this run is another file; --set 'views=[{}, {file: ...}]'");
         if (!said)
-            *view->file = 0;
-        *view->set = 0;
+            view->file = NULL;
+        view->set = NULL;
     }
 }
 

@@ -1,9 +1,9 @@
 #include "app/run/playback/playback.h"
 
 #include "app/files/snapshot_hdf5.h"
-#include "app/scene/keys.h"
+#include "app/scene/scene.h"
 #include "app/scene/yaml/yaml.h"
-#include "sim/base/color.h"
+#include "sim/base/base.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -14,12 +14,12 @@
 static const double FOLLOW_MS = 500; /* interval of checks if the file has grown */
 
 /* A step in memory. */
-typedef struct KeptStep {
+typedef struct CachedStep {
     bool is;
     size_t index;
     double before, after; /* times of the neighbour steps */
     StateCopy copy;
-} KeptStep;
+} CachedStep;
 
 struct Prefetch {
     unsigned attributes;
@@ -32,7 +32,7 @@ struct Prefetch {
     pthread_cond_t wanted, done;
     double time, lead;
     unsigned asked, answered; /* counts of prefetch_seek */
-    size_t room, needs;       /* particles: capacity of the upload; size of the requested step if larger */
+    size_t capacity, needs;   /* particles: capacity of the upload; size of the requested step if larger */
     bool quit;
     PrefetchStatus status;
     SnapshotFlaws flaws; /* a copy */
@@ -41,7 +41,7 @@ struct Prefetch {
     Upload *before;    /* the replaced upload, until the new upload has a state; or NULL */
     Recorded recorded; /* used by the thread only */
     struct stat file;  /* status of the file when opened */
-    KeptStep kept[PREFETCH_KEPT_MOST];
+    CachedStep cache[PREFETCH_CACHE_MOST];
     size_t kept_most;
     size_t shown;       /* step index in the file; SIZE_MAX: none */
     double followed_ms; /* wall time of the last check if the file has grown */
@@ -54,7 +54,7 @@ static size_t step_bytes(const StateCopy *copy)
     size_t bytes = sizeof(float[4]) + sizeof(float[4]) + 2 * sizeof(uint32_t);
     for (size_t s = 0; s < sizeof copy->arrays.scalar / sizeof *copy->arrays.scalar; s++)
         bytes += copy->arrays.scalar[s] ? sizeof(float) : 0;
-    return bytes * (copy->room + 1);
+    return bytes * (copy->capacity + 1);
 }
 
 static size_t clamp(size_t value, size_t least, size_t most)
@@ -62,69 +62,69 @@ static size_t clamp(size_t value, size_t least, size_t most)
     return value < least ? least : value > most ? most : value;
 }
 
-static KeptStep *find_kept(Prefetch *prefetch, size_t index)
+static CachedStep *find_kept(Prefetch *prefetch, size_t index)
 {
-    for (size_t k = 0; k < PREFETCH_KEPT_MOST; k++)
-        if (prefetch->kept[k].is && prefetch->kept[k].index == index)
-            return &prefetch->kept[k];
+    for (size_t k = 0; k < PREFETCH_CACHE_MOST; k++)
+        if (prefetch->cache[k].is && prefetch->cache[k].index == index)
+            return &prefetch->cache[k];
     return NULL;
 }
 
 /* Rank of a kept step for removal: steps behind, seen along `lead`, before steps ahead; far steps before
    near steps. */
-static double uselessness(const KeptStep *kept, size_t index, double lead)
+static double uselessness(const CachedStep *cache, size_t index, double lead)
 {
-    const double ahead = (lead < 0 ? -1 : 1) * ((double)kept->index - (double)index);
+    const double ahead = (lead < 0 ? -1 : 1) * ((double)cache->index - (double)index);
     return ahead < 0 ? 1e18 - ahead : ahead;
 }
 
 /* Returns a place for one more step: free, or with the least useful step for a reader at `index`. */
-static KeptStep *place_for(Prefetch *prefetch, size_t index, double lead)
+static CachedStep *place_for(Prefetch *prefetch, size_t index, double lead)
 {
-    KeptStep *worst = &prefetch->kept[0];
+    CachedStep *worst = &prefetch->cache[0];
     for (size_t k = 0; k < prefetch->kept_most; k++) {
-        KeptStep *kept = &prefetch->kept[k];
-        if (!kept->is)
-            return kept;
-        if (uselessness(kept, index, lead) > uselessness(worst, index, lead))
-            worst = kept;
+        CachedStep *cache = &prefetch->cache[k];
+        if (!cache->is)
+            return cache;
+        if (uselessness(cache, index, lead) > uselessness(worst, index, lead))
+            worst = cache;
     }
     return worst;
 }
 
-static bool read_neighbours(Prefetch *prefetch, KeptStep *kept, Error *error)
+static bool read_neighbours(Prefetch *prefetch, CachedStep *cache, Error *error)
 {
     Recorded *recorded = &prefetch->recorded;
-    kept->before = kept->after = kept->copy.state.time;
-    return (kept->index == 0 || recorded_time(recorded, kept->index - 1, &kept->before, error)) &&
-           (kept->index + 1 >= recorded->steps ||
-            recorded_time(recorded, kept->index + 1, &kept->after, error));
+    cache->before = cache->after = cache->copy.state.time;
+    return (cache->index == 0 || recorded_time(recorded, cache->index - 1, &cache->before, error)) &&
+           (cache->index + 1 >= recorded->steps ||
+            recorded_time(recorded, cache->index + 1, &cache->after, error));
 }
 
 /* Reduces the kept steps to as many as fit if all are as large as `kept`, which stays. */
-static KeptStep *keep_fewer(Prefetch *prefetch, KeptStep *kept)
+static CachedStep *keep_fewer(Prefetch *prefetch, CachedStep *cache)
 {
     const size_t most =
-        clamp(prefetch->bytes / step_bytes(&kept->copy), PREFETCH_KEPT_LEAST, prefetch->kept_most);
-    if (kept >= prefetch->kept + most) {
-        const KeptStep other = prefetch->kept[0];
-        prefetch->kept[0] = *kept;
-        *kept = other;
-        kept = &prefetch->kept[0];
+        clamp(prefetch->bytes / step_bytes(&cache->copy), PREFETCH_CACHE_LEAST, prefetch->kept_most);
+    if (cache >= prefetch->cache + most) {
+        const CachedStep other = prefetch->cache[0];
+        prefetch->cache[0] = *cache;
+        *cache = other;
+        cache = &prefetch->cache[0];
     }
     for (size_t k = most; k < prefetch->kept_most; k++) {
-        state_copy_free(&prefetch->kept[k].copy);
-        prefetch->kept[k].is = false;
+        state_copy_free(&prefetch->cache[k].copy);
+        prefetch->cache[k].is = false;
     }
     prefetch->kept_most = most;
-    return kept;
+    return cache;
 }
 
-static KeptStep *read_into(Prefetch *prefetch, KeptStep *kept, size_t index, Error *error)
+static CachedStep *read_into(Prefetch *prefetch, CachedStep *cache, size_t index, Error *error)
 {
-    kept->is = recorded_read(&prefetch->recorded, index, prefetch->attributes, &kept->copy, error);
-    kept->index = index;
-    return kept->is ? keep_fewer(prefetch, kept) : NULL;
+    cache->is = recorded_read(&prefetch->recorded, index, prefetch->attributes, &cache->copy, error);
+    cache->index = index;
+    return cache->is ? keep_fewer(prefetch, cache) : NULL;
 }
 
 /* ---- the thread ---- */
@@ -150,32 +150,32 @@ static void tell(Prefetch *prefetch)
 }
 
 /* Writes a step into the upload, after waiting for room. Returns false to end the thread. */
-static bool show(Prefetch *prefetch, const KeptStep *kept, Error *error)
+static bool show(Prefetch *prefetch, const CachedStep *cache, Error *error)
 {
-    const size_t count = kept->copy.state.count;
+    const size_t count = cache->copy.state.count;
     pthread_mutex_lock(&prefetch->mutex);
-    while (count > prefetch->room && !prefetch->quit) {
+    while (count > prefetch->capacity && !prefetch->quit) {
         prefetch->needs = count;
         tell(prefetch);
         pthread_cond_wait(&prefetch->wanted, &prefetch->mutex);
     }
     const bool goes_on = !prefetch->quit;
     pthread_mutex_unlock(&prefetch->mutex);
-    if (!goes_on || prefetch->shown == kept->index)
+    if (!goes_on || prefetch->shown == cache->index)
         return goes_on;
-    prefetch->shown = kept->index;
-    return upload_write_arrays(prefetch->upload, &kept->copy.arrays, &kept->copy.state, error);
+    prefetch->shown = cache->index;
+    return upload_write_arrays(prefetch->upload, &cache->copy.arrays, &cache->copy.state, error);
 }
 
 /* Updates the status, with the mutex locked: the requested place in the file, even if the step cannot be
    shown. */
-static void describe(Prefetch *prefetch, const KeptStep *kept)
+static void describe(Prefetch *prefetch, const CachedStep *cache)
 {
     PrefetchStatus *status = &prefetch->status;
-    status->time = kept->copy.state.time;
-    status->before = kept->before;
-    status->after = kept->after;
-    status->kept = prefetch->kept_most;
+    status->time = cache->copy.state.time;
+    status->before = cache->before;
+    status->after = cache->after;
+    status->cached_most = prefetch->kept_most;
 }
 
 static void describe_file(Prefetch *prefetch)
@@ -194,26 +194,26 @@ static bool find(Prefetch *prefetch, double time, size_t *index, Error *error)
 
 /* Shows the last requested step; `place` gets its place in the file. Returns false with the reason, and
    `place` as far as known. */
-static bool show_asked(Prefetch *prefetch, double time, double lead, KeptStep *place, bool *read,
+static bool show_asked(Prefetch *prefetch, double time, double lead, CachedStep *place, bool *read,
                        Error *error)
 {
     if (!find(prefetch, time, &place->index, error))
         return false;
-    KeptStep *kept = find_kept(prefetch, place->index);
-    *read = !kept;
-    if (!kept)
-        kept = read_into(prefetch, place_for(prefetch, place->index, lead), place->index, error);
+    CachedStep *cache = find_kept(prefetch, place->index);
+    *read = !cache;
+    if (!cache)
+        cache = read_into(prefetch, place_for(prefetch, place->index, lead), place->index, error);
     Error none; /* the first reason counts */
     double *at = &place->copy.state.time;
-    place->is = recorded_time(&prefetch->recorded, place->index, at, kept ? error : &none) &&
-                read_neighbours(prefetch, place, kept ? error : &none);
-    return kept && place->is && show(prefetch, kept, error);
+    place->is = recorded_time(&prefetch->recorded, place->index, at, cache ? error : &none) &&
+                read_neighbours(prefetch, place, cache ? error : &none);
+    return cache && place->is && show(prefetch, cache, error);
 }
 
 static void answer(Prefetch *prefetch, double time, double lead, unsigned asked)
 {
     Error error = {{0}};
-    KeptStep place = {.index = 0};
+    CachedStep place = {.index = 0};
     bool read = false;
     const bool shown = show_asked(prefetch, time, lead, &place, &read, &error);
     pthread_mutex_lock(&prefetch->mutex);
@@ -265,8 +265,8 @@ static bool read_ahead(Prefetch *prefetch, double time, double lead)
     size_t index;
     if (lead == 0 || prefetch->shown == SIZE_MAX || !find_next(prefetch, time, lead, &index))
         return false;
-    KeptStep *place = place_for(prefetch, prefetch->shown, lead);
-    const KeptStep next = {.index = index};
+    CachedStep *place = place_for(prefetch, prefetch->shown, lead);
+    const CachedStep next = {.index = index};
     if (place->is && uselessness(place, prefetch->shown, lead) <= uselessness(&next, prefetch->shown, lead))
         return false;
     const bool read = read_into(prefetch, place, index, &none) != NULL;
@@ -332,9 +332,9 @@ static void *work(void *user)
 
 /* ---- functions of the context's thread ---- */
 
-static bool make_upload(Prefetch *prefetch, size_t room, Error *error)
+static bool make_upload(Prefetch *prefetch, size_t capacity, Error *error)
 {
-    Upload *upload = upload_create(room, prefetch->attributes, error);
+    Upload *upload = upload_create(capacity, prefetch->attributes, error);
     if (!upload)
         return false;
     if (prefetch->before)
@@ -342,7 +342,7 @@ static bool make_upload(Prefetch *prefetch, size_t room, Error *error)
     else
         prefetch->before = prefetch->upload;
     prefetch->upload = upload;
-    prefetch->room = room;
+    prefetch->capacity = capacity;
     prefetch->needs = 0;
     prefetch->shown = SIZE_MAX;
     return true;
@@ -359,7 +359,7 @@ Prefetch *prefetch_create(const PrefetchSetup *setup, Error *error)
     prefetch->bytes = setup->bytes;
     prefetch->at_or_after = setup->at_or_after;
     prefetch->wake = setup->wake;
-    prefetch->kept_most = PREFETCH_KEPT_MOST;
+    prefetch->kept_most = PREFETCH_CACHE_MOST;
     prefetch->followed_ms = wall_ms();
     prefetch->recorded = *setup->recorded;
     if (stat(prefetch->recorded.path, &prefetch->file) != 0)
@@ -389,8 +389,8 @@ void prefetch_destroy(Prefetch *prefetch)
     pthread_cond_signal(&prefetch->wanted);
     pthread_mutex_unlock(&prefetch->mutex);
     pthread_join(prefetch->thread, NULL);
-    for (size_t k = 0; k < PREFETCH_KEPT_MOST; k++)
-        state_copy_free(&prefetch->kept[k].copy);
+    for (size_t k = 0; k < PREFETCH_CACHE_MOST; k++)
+        state_copy_free(&prefetch->cache[k].copy);
     upload_destroy(prefetch->before);
     upload_destroy(prefetch->upload);
     recorded_close(&prefetch->recorded);
@@ -416,7 +416,7 @@ void prefetch_seek(Prefetch *prefetch, double time, double lead)
    locked. */
 static bool make_room(Prefetch *prefetch, Error *error)
 {
-    if (prefetch->needs <= prefetch->room)
+    if (prefetch->needs <= prefetch->capacity)
         return true;
     if (!make_upload(prefetch, prefetch->needs + prefetch->needs / 4, error))
         return false;

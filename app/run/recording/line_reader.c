@@ -1,4 +1,4 @@
-#include "app/run/recording/line_reader.h"
+#include "app/run/recording/recording.h"
 
 #include <errno.h>
 #include <stdarg.h>

@@ -1,8 +1,7 @@
 #include "app/run/recording/recording.h"
 
-#include "app/base/output.h"
-#include "app/scene/scene_files.h"
-#include "sim/flow/finger.h"
+#include "app/base/file.h"
+#include "app/scene/scene.h"
 #include "sim/flow/flow.h"
 
 #include <errno.h>
@@ -116,8 +115,19 @@ bool recording_add(Recording *recording, const SimCommand *command)
     if (count == RECORDING_COMMANDS_MAX || !grow(recording) ||
         (count > 0 && command->step < recording->commands[count - 1].step))
         return false;
-    recording->commands[recording->count++] = *command;
+    SimCommand *added = &recording->commands[recording->count++];
+    *added = *command;
+    if (command->kind == SIM_VALUE) {
+        added->kind = SIM_SET;
+        setting_value_text(&command->value, added->setting);
+    }
     return true;
+}
+
+const SimCommand *recording_due(const Recording *recording, size_t *next, uint64_t step)
+{
+    const bool due = *next < recording->count && recording->commands[*next].step <= step;
+    return due ? &recording->commands[(*next)++] : NULL;
 }
 
 size_t recording_line(const Recording *recording, size_t index)
@@ -191,12 +201,12 @@ static void put_finger(FILE *file, const SimCommand *command)
     putc('\n', file);
 }
 
-static void put_shut(FILE *file, const SimCommand *command)
+static void put_gates(FILE *file, const SimCommand *command)
 {
     char name[GATE_NAME_SIZE];
     fprintf(file, "%" PRIu64 " shut", command->step);
     for (int gate = 0; gate < GATES_MAX; gate++)
-        if (gate_shut(command->shut, gate)) {
+        if (gate_is_closed(command->closed_gates, gate)) {
             gate_name(gate, name);
             fprintf(file, " %s", name);
         }
@@ -240,8 +250,8 @@ static void put_command(FILE *file, const SimCommand *command)
         put_solid(file, command);
         return;
     }
-    if (command->kind == SIM_SHUT) {
-        put_shut(file, command);
+    if (command->kind == SIM_GATES) {
+        put_gates(file, command);
         return;
     }
     const double *x = command->target.position, *q = command->target.orientation;
@@ -250,12 +260,12 @@ static void put_command(FILE *file, const SimCommand *command)
 }
 
 /* Figures of the world at the end. */
-typedef struct End {
+typedef struct RecordingEnd {
     uint64_t steps, hash;
-} End;
+} RecordingEnd;
 
 /* Writes the recording; `end` NULL: the end is unknown. */
-static bool put_all(FILE *file, const Recording *recording, const End *end)
+static bool put_all(FILE *file, const Recording *recording, const RecordingEnd *end)
 {
     put_head(file, recording);
     fputs("commands\n", file);
@@ -266,7 +276,7 @@ static bool put_all(FILE *file, const Recording *recording, const End *end)
     return fflush(file) == 0 && !ferror(file);
 }
 
-static bool write_whole(const Recording *recording, const End *end, const char *path, Error *error)
+static bool write_whole(const Recording *recording, const RecordingEnd *end, const char *path, Error *error)
 {
     Output output = {0};
     if (!output_begin(&output, path, error))
@@ -287,7 +297,7 @@ static bool write_whole(const Recording *recording, const End *end, const char *
 bool recording_write(const Recording *recording, uint64_t steps, uint64_t hash, const char *path,
                      Error *error)
 {
-    return write_whole(recording, &(End){steps, hash}, path, error);
+    return write_whole(recording, &(RecordingEnd){steps, hash}, path, error);
 }
 
 bool recording_write_cut(const Recording *recording, const char *path, Error *error)

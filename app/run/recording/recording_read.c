@@ -1,9 +1,7 @@
 #include "app/run/recording/recording.h"
 
 #include "app/base/file.h"
-#include "app/run/recording/line_reader.h"
-#include "app/scene/scene_files.h"
-#include "sim/flow/finger.h"
+#include "app/scene/scene.h"
 #include "sim/flow/flow.h"
 
 #include <inttypes.h>
@@ -102,13 +100,13 @@ static bool read_settings(LineReader *reader)
 }
 
 /* Adds the present line, "| ..." or "|", to the scene's text. */
-static bool add_scene_line(LineReader *reader, size_t room)
+static bool add_scene_line(LineReader *reader, size_t capacity)
 {
     Recording *out = reader->out;
     const size_t skip = reader->length > 1 ? 2 : 1, length = reader->length - skip;
     if (reader->length > 1 && reader->line[1] != ' ')
         return line_reader_fail(reader, "no blank after the '|'; a line of the scene begins with '| '");
-    if (length + 1 > room - out->size)
+    if (length + 1 > capacity - out->size)
         return line_reader_fail(reader, "the scene is larger than 1 MiB; a scene is a page of YAML");
     memcpy(out->text + out->size, reader->line + skip, length);
     out->size += length;
@@ -120,16 +118,16 @@ static bool read_scene(LineReader *reader)
 {
     Recording *out = reader->out;
     const size_t left = (size_t)(reader->end - reader->at);
-    const size_t room = (left < SCENE_BYTES_MAX ? left : SCENE_BYTES_MAX) + 1;
+    const size_t capacity = (left < SCENE_BYTES_MAX ? left : SCENE_BYTES_MAX) + 1;
     if (!next_of_head(reader))
         return false;
     if (!line_reader_is(reader, "text"))
         return line_reader_misplaced(reader, "'text' and the scene");
-    out->text = malloc(room);
+    out->text = malloc(capacity);
     if (!out->text)
         return line_reader_fail(reader, "no memory to read it");
     while (line_reader_begins(reader, "|"))
-        if (!next_of_head(reader) || !add_scene_line(reader, room))
+        if (!next_of_head(reader) || !add_scene_line(reader, capacity))
             return false;
     if (out->size > 0 && line_reader_begins(reader, "\\ no newline at the end\n")) {
         out->size--;
@@ -214,7 +212,7 @@ static bool read_finger(const LineReader *reader, const char *at, Finger *finger
 }
 
 /* Reads the names of shut gates, each after a blank. */
-static bool read_shut(const LineReader *reader, const char *at, uint64_t *shut)
+static bool read_gates(const LineReader *reader, const char *at, uint64_t *closed_gates)
 {
     while (*at) {
         char name[GATE_NAME_SIZE] = "";
@@ -225,7 +223,7 @@ static bool read_shut(const LineReader *reader, const char *at, uint64_t *shut)
         if (gate < 0)
             return line_reader_fail(
                 reader, "'%.40s' cannot be shut; fluids[0].emit[0] or drains[0] would be such names", at);
-        *shut |= 1ULL << gate;
+        *closed_gates |= 1ULL << gate;
         at += 1 + length;
     }
     return true;
@@ -264,8 +262,8 @@ static bool read_solid(const LineReader *reader, const char *at, SolidCommand *s
            line_reader_fail(
                reader,
                "'%.60s' does nothing to a solid; move, its number, x y z (m) and a quaternion must stand "
-               "here, or put, 0 (a ball), 1 (a box) or 2 more than the number of one that it is like, x y z "
-               "and half its size (m), or take and its number",
+               "here; or put, 0 (a ball), 1 (a box) or 2 more than the number of one that it is like, x y z "
+               "and half its size (m); or take and its number",
                line + 1);
 }
 
@@ -299,17 +297,17 @@ static bool read_setting(LineReader *reader, size_t skip, char setting[SIM_SETTI
 static bool read_kind(LineReader *reader, const char *line, const char *at, SimCommand *command)
 {
     static const char *const words[] = {
-        [SIM_TARGET] = " target", [SIM_CARRY] = " carry", [SIM_TOUCH] = " touch", [SIM_SHUT] = " shut",
+        [SIM_TARGET] = " target", [SIM_CARRY] = " carry", [SIM_TOUCH] = " touch", [SIM_GATES] = " shut",
         [SIM_SOLID] = " solid",   [SIM_SIZE] = " size",   [SIM_SET] = " set"};
     for (int kind = SIM_TARGET; kind <= SIM_SET; kind++) {
         const size_t length = strlen(words[kind]);
-        const bool bare = kind == SIM_SHUT && !at[length];
+        const bool bare = kind == SIM_GATES && !at[length];
         if (strncmp(at, words[kind], length) != 0 || (at[length] != ' ' && !bare))
             continue;
         command->kind = (SimCommandKind)kind;
         at += length;
-        if (kind == SIM_SHUT)
-            return read_shut(reader, at, &command->shut);
+        if (kind == SIM_GATES)
+            return read_gates(reader, at, &command->closed_gates);
         if (kind == SIM_SIZE)
             return read_size(reader, at, command->size);
         if (kind == SIM_SOLID)

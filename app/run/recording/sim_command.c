@@ -1,4 +1,4 @@
-#include "app/run/recording/sim_command.h"
+#include "app/run/recording/recording.h"
 
 #include "app/scene/scene.h"
 #include "sim/solids/solid.h"
@@ -25,12 +25,12 @@ static bool check(const double size[3], const WorldDef *def, Error *error)
 /* True if the fluid fits into the box; solids are not counted. */
 static bool fits(const WorldDef *after, const WorldInfo *info, Error *error)
 {
-    double room = 1, fluid = (double)info->count;
+    double capacity = 1, fluid = (double)info->count;
     for (int k = 0; k < after->dimensions; k++) {
-        room *= after->box_size[k];
+        capacity *= after->box_size[k];
         fluid *= after->spacing;
     }
-    return fluid <= 0.97 * room || error_set(error, "the fluid has no room in a smaller box");
+    return fluid <= 0.97 * capacity || error_set(error, "the fluid has no room in a smaller box");
 }
 
 /* Resizes the box (m) at once, but shrinks at most by BOX_SHRINK_MOST along each axis: callers repeat for
@@ -262,11 +262,30 @@ static bool solid_command_apply(const SolidCommand *command, World **world, Worl
     return true;
 }
 
-static const char BACKEND_IS[] = "solver.backend=", ACCELERATION_IS[] = "solver.acceleration=";
+void sim_command_setting(const SimCommand *command, char text[SETTING_TEXT_SIZE])
+{
+    if (command->kind == SIM_VALUE)
+        setting_value_text(&command->value, text);
+    else
+        snprintf(text, SETTING_TEXT_SIZE, "%s", command->setting);
+}
+
+void sim_command_path(const SimCommand *command, char path[SETTING_TEXT_SIZE])
+{
+    if (command->kind == SIM_VALUE)
+        setting_value_path(&command->value, path);
+    else
+        snprintf(path, SETTING_TEXT_SIZE, "%.*s", (int)strcspn(command->setting, "="), command->setting);
+}
+
+static const char BACKEND[] = "solver.backend", ACCELERATION[] = "solver.acceleration";
 
 static bool sets(const SimCommand *command, const char *key)
 {
-    return command->kind == SIM_SET && strncmp(command->setting, key, strlen(key)) == 0;
+    const size_t length = strlen(key);
+    return command->kind == SIM_SET
+               ? strncmp(command->setting, key, length) == 0 && command->setting[length] == '='
+               : command->kind == SIM_VALUE && strcmp(command->value.key->path, key) == 0;
 }
 
 bool sim_command_poses(const SimCommand *command)
@@ -276,25 +295,25 @@ bool sim_command_poses(const SimCommand *command)
 
 bool sim_command_moves(const SimCommand *command)
 {
-    return sets(command, BACKEND_IS) || sets(command, ACCELERATION_IS);
+    return sets(command, BACKEND) || sets(command, ACCELERATION);
 }
 
 bool sim_command_sets_backend(const SimCommand *command)
 {
-    return sets(command, BACKEND_IS);
+    return sets(command, BACKEND);
 }
 
 bool sim_command_changes(const SimCommand *command)
 {
-    return !sets(command, ACCELERATION_IS);
+    return !sets(command, ACCELERATION);
 }
 
 bool sim_command_needs_gpu(const SimCommand *command)
 {
     WorldDef def;
-    if (!sets(command, BACKEND_IS))
+    if (command->kind != SIM_SET || !sets(command, BACKEND))
         return false;
-    snprintf(def.backend, sizeof def.backend, "%.31s", command->setting + sizeof BACKEND_IS - 1);
+    snprintf(def.backend, sizeof def.backend, "%.31s", command->setting + sizeof BACKEND);
     return world_on_gpu(&def);
 }
 
@@ -319,6 +338,18 @@ static bool apply_setting(const char *setting, World **world, Scene *scene, Erro
     return true;
 }
 
+static bool apply_value(const SettingValue *value, World *world, Scene *scene, Error *error)
+{
+    SettingBefore before;
+    bool concerns_world;
+    if (!scene_set_value(scene, value, &before, &concerns_world, error))
+        return false;
+    if (!concerns_world || world_change(world, &scene->world, error))
+        return true;
+    scene_set_back(scene, value, &before);
+    return false;
+}
+
 bool sim_command_apply(const SimCommand *command, World **world, Scene *scene, Error *error)
 {
     switch (command->kind) {
@@ -333,8 +364,8 @@ bool sim_command_apply(const SimCommand *command, World **world, Scene *scene, E
             return false;
         world_set_finger(*world, &command->finger);
         break;
-    case SIM_SHUT:
-        world_shut_gates(*world, command->shut);
+    case SIM_GATES:
+        world_close_gates(*world, command->closed_gates);
         break;
     case SIM_SOLID:
         return solid_command_apply(&command->solid, world, &scene->world, error);
@@ -342,6 +373,8 @@ bool sim_command_apply(const SimCommand *command, World **world, Scene *scene, E
         return box_command_apply(command->size, world, &scene->world, error);
     case SIM_SET:
         return apply_setting(command->setting, world, scene, error);
+    case SIM_VALUE:
+        return apply_value(&command->value, *world, scene, error);
     }
     return true;
 }

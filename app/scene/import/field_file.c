@@ -24,7 +24,7 @@ typedef struct FieldReader {
     int columns, meaning[COLUMNS]; /* for each column: index in a row */
     bool has[COLUMNS];
     FieldRow *rows;
-    size_t count, room;
+    size_t count, capacity;
     Error *error;
 } FieldReader;
 
@@ -161,13 +161,13 @@ static bool read_header(FieldReader *r)
 
 static FieldRow *add_row(FieldReader *r)
 {
-    if (r->count == r->room) {
-        const size_t room = r->room ? 2 * r->room : 256;
-        FieldRow *rows = room > ROWS_MAX ? NULL : realloc(r->rows, room * sizeof *rows);
+    if (r->count == r->capacity) {
+        const size_t capacity = r->capacity ? 2 * r->capacity : 256;
+        FieldRow *rows = capacity > ROWS_MAX ? NULL : realloc(r->rows, capacity * sizeof *rows);
         if (!rows)
             return NULL;
         r->rows = rows;
-        r->room = room;
+        r->capacity = capacity;
     }
     FieldRow *row = &r->rows[r->count++];
     *row = (FieldRow){.line = r->line};

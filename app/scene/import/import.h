@@ -4,7 +4,7 @@
 #define APP_SCENE_IMPORT_IMPORT_H
 
 #include "sim/mesh/mesh_shape.h"
-#include "sim/points/fields.h"
+#include "sim/points/points.h"
 #include "slosh/def.h"
 #include "slosh/error.h"
 

@@ -2,7 +2,7 @@
 #ifndef APP_SCENE_IMPORT_IMPORT_PRIVATE_H
 #define APP_SCENE_IMPORT_IMPORT_PRIVATE_H
 
-#include "sim/mesh/triangles.h"
+#include "sim/mesh/mesh_shape.h"
 
 #include <stdbool.h>
 #include <stddef.h>

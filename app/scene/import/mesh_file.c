@@ -4,8 +4,7 @@
 #include "app/base/file.h"
 #include "app/base/program.h"
 #include "app/scene/import/import_private.h"
-#include "sim/base/parallel.h"
-#include "sim/base/sums.h"
+#include "sim/base/base.h"
 #include "slosh/world.h"
 
 #include <assimp/cimport.h>
@@ -212,12 +211,12 @@ enum { GIB_MOST = 8, LOOK_MS = 20 };
 #endif
 
 /* First record in the pipe; then vertices, then triangles. */
-typedef struct Head {
+typedef struct PipeHead {
     bool ok;
     size_t vertex_count, triangle_count;
     double largest;
     Error error;
-} Head;
+} PipeHead;
 
 static bool put(int to, const void *bytes, size_t size)
 {
@@ -234,14 +233,14 @@ static bool put(int to, const void *bytes, size_t size)
 }
 
 /* The parent's wait for the child. */
-typedef struct Wait {
+typedef struct PipeWait {
     int from;
     double until_ms; /* wall time */
     bool late;
-} Wait;
+} PipeWait;
 
 /* Waits until bytes can be read, or the pipe's end. Returns false if late or interrupted. */
-static bool comes(Wait *wait)
+static bool comes(PipeWait *wait)
 {
     struct pollfd look = {.fd = wait->from, .events = POLLIN};
     int ready = 0;
@@ -252,7 +251,7 @@ static bool comes(Wait *wait)
     return ready > 0;
 }
 
-static bool get(Wait *wait, void *bytes, size_t size)
+static bool get(PipeWait *wait, void *bytes, size_t size)
 {
     for (char *at = bytes; size > 0;) {
         const ssize_t done = comes(wait) ? read(wait->from, at, size) : 0;
@@ -286,7 +285,7 @@ static void confine(double seconds)
 static void be_child(MeshRead *read, const char *path, double seconds, int to)
 {
     Triangles triangles = {0};
-    Head head = {.ok = false};
+    PipeHead head = {.ok = false};
     confine(seconds);
     head.ok = read(path, &triangles, &head.error);
     head.vertex_count = triangles.vertex_count;
@@ -300,9 +299,9 @@ static void be_child(MeshRead *read, const char *path, double seconds, int to)
             : 1);
 }
 
-static bool take_output(Wait *from, Triangles *triangles, Error *error)
+static bool take_output(PipeWait *from, Triangles *triangles, Error *error)
 {
-    Head head;
+    PipeHead head;
     if (!get(from, &head, sizeof head))
         return error_set(error, "the process that reads it ended early");
     if (!head.ok) {
@@ -323,7 +322,7 @@ static bool take_output(Wait *from, Triangles *triangles, Error *error)
 
 /* Waits for the child; kills the child first if late or interrupted. Returns `taken`; sets the error if a
    signal ended the child. */
-static bool ended_well(pid_t child, const Wait *wait, double seconds, bool taken, Error *error)
+static bool ended_well(pid_t child, const PipeWait *wait, double seconds, bool taken, Error *error)
 {
     int status = 0;
     const bool stopped = interrupted();
@@ -362,7 +361,7 @@ bool mesh_child_read(MeshRead *read, const char *path, double seconds, Triangles
         close(ends[0]);
         return error_set(error, "no process to read it: %s", strerror(errno));
     }
-    Wait wait = {.from = ends[0], .until_ms = wall_ms() + 1000 * seconds};
+    PipeWait wait = {.from = ends[0], .until_ms = wall_ms() + 1000 * seconds};
     const bool taken = take_output(&wait, triangles, error);
     close(ends[0]);
     const bool ok = ended_well(child, &wait, seconds, taken, error);
@@ -382,7 +381,7 @@ static const double FAR = 8; /* relative to the mesh's length: costs three bits 
 /* Checks the file's size, and the number of triangles by the first bytes. */
 static bool head_fits(const char *path, MeshFormat format, Error *error)
 {
-    static char head[HEAD_SIZE];
+    char head[HEAD_SIZE];
     struct stat about;
     const bool there = stat(path, &about) == 0;
     if (there && !S_ISREG(about.st_mode)) /* opening a pipe would block */
@@ -534,21 +533,21 @@ bool mesh_file_read(const char *path, Triangles *triangles, Error *error)
 
 /* ---- kept meshes ---- */
 
-typedef struct KeptMesh {
-    struct KeptMesh *next;
+typedef struct CachedMesh {
+    struct CachedMesh *next;
     uint64_t hash; /* of the file's bytes */
     size_t size;
     MeshShape *shape;
     MeshState state;
-} KeptMesh;
+} CachedMesh;
 
 static pthread_mutex_t keeping = PTHREAD_MUTEX_INITIALIZER; /* a waiting window may load further meshes */
-static KeptMesh *all_kept;
+static CachedMesh *all_kept;
 
-static const KeptMesh *find_kept(uint64_t of, size_t size)
+static const CachedMesh *find_kept(uint64_t of, size_t size)
 {
     pthread_mutex_lock(&keeping);
-    const KeptMesh *kept = all_kept;
+    const CachedMesh *kept = all_kept;
     while (kept && (kept->hash != of || kept->size != size))
         kept = kept->next;
     pthread_mutex_unlock(&keeping);
@@ -574,9 +573,9 @@ static MeshShape *make_shape(Triangles *triangles, MeshState *state, Error *erro
 }
 
 /* Makes and keeps a shape; takes ownership of the triangles. Returns NULL with the error set. */
-static const KeptMesh *keep(Triangles *triangles, uint64_t of, size_t size, Error *error)
+static const CachedMesh *keep(Triangles *triangles, uint64_t of, size_t size, Error *error)
 {
-    KeptMesh *kept = calloc(1, sizeof *kept);
+    CachedMesh *kept = calloc(1, sizeof *kept);
     if (kept)
         kept->shape = make_shape(triangles, &kept->state, error);
     else
@@ -616,19 +615,19 @@ typedef struct MeshJob {
     MeshFormat format;
     uint64_t of;
     size_t size;
-    const KeptMesh *kept; /* result; NULL: see error */
+    const CachedMesh *kept; /* result; NULL: see error */
     Error error;
     atomic_bool done;
 } MeshJob;
 
 /* Reads a file. A text glTF names further files, so triangles identify the mesh instead of the file's
    bytes. */
-static const KeptMesh *read_one(const MeshJob *job, Error *error)
+static const CachedMesh *read_one(const MeshJob *job, Error *error)
 {
     Triangles triangles;
     uint64_t of = job->of;
     size_t size = job->size;
-    const KeptMesh *kept = NULL;
+    const CachedMesh *kept = NULL;
     if (!mesh_child_read(mesh_file_read, job->path, SECONDS_MOST, &triangles, error))
         return NULL;
     if (job->format == MESH_GLTF) {
@@ -694,13 +693,13 @@ static void do_beside(MeshJob *job)
     pthread_join(thread, NULL);
 }
 
-static const KeptMesh *look_up(const char *path, MeshFormat format, Error *error)
+static const CachedMesh *look_up(const char *path, MeshFormat format, Error *error)
 {
     uint64_t of;
     size_t size;
     if (!bytes_fit(path, format, &of, &size, error))
         return NULL;
-    const KeptMesh *kept = format == MESH_GLTF ? NULL : find_kept(of, size);
+    const CachedMesh *kept = format == MESH_GLTF ? NULL : find_kept(of, size);
     MeshJob *job =
         kept ? NULL : calloc(1, sizeof *job); /* a window may leave the job to the thread by longjmp */
     if (!job) {
@@ -721,7 +720,7 @@ static const KeptMesh *look_up(const char *path, MeshFormat format, Error *error
 const MeshShape *mesh_file_load(const char *path, MeshState *state, Error *error)
 {
     const MeshFormat format = mesh_format(path);
-    const KeptMesh *kept = NULL;
+    const CachedMesh *kept = NULL;
     if (format == MESH_UNKNOWN)
         error_set(error,
                   "its ending is of no format that is read; name a file .obj, .ply, .stl, .gltf or .glb");

@@ -390,9 +390,9 @@ static void write_double(char *bytes, bool big, double value)
    already. */
 static char *move_doubles(const Vertices *vertices, const char *bytes, size_t size, const double by[3])
 {
-    const size_t room = size - (size_t)(vertices->data - bytes);
+    const size_t capacity = size - (size_t)(vertices->data - bytes);
     if (!vertices->is_double[0] || !vertices->is_double[1] || !vertices->is_double[2] ||
-        vertices->count > (double)room / (double)vertices->stride)
+        vertices->count > (double)capacity / (double)vertices->stride)
         return NULL;
     char *moved = malloc(size + 1);
     if (!moved)

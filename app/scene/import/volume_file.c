@@ -263,20 +263,20 @@ bool volume_file_load(const char *path, VolumeData *volume, float **values, Erro
 }
 
 /* Identifies an unmodified file. */
-typedef struct Stamp {
+typedef struct VolumeStamp {
     dev_t device;
     ino_t number;
     off_t size;
     struct timespec written;
-} Stamp;
+} VolumeStamp;
 
-typedef struct KeptVolume {
-    struct KeptVolume *next;
-    Stamp stamps[2]; /* of the header and the raw file, when last read */
+typedef struct CachedVolume {
+    struct CachedVolume *next;
+    VolumeStamp stamps[2]; /* of the header and the raw file, when last read */
     RangedVolume data;
-} KeptVolume;
+} CachedVolume;
 
-static KeptVolume *all_kept;
+static CachedVolume *all_kept;
 
 static size_t values_of(const VolumeData *volume)
 {
@@ -284,16 +284,16 @@ static size_t values_of(const VolumeData *volume)
 }
 
 /* Returns false if the file is missing. */
-static bool take_stamp(const char *path, Stamp *stamp)
+static bool take_stamp(const char *path, VolumeStamp *stamp)
 {
     struct stat status;
     if (stat(path, &status) != 0)
         return false;
-    *stamp = (Stamp){status.st_dev, status.st_ino, status.st_size, status.st_mtim};
+    *stamp = (VolumeStamp){status.st_dev, status.st_ino, status.st_size, status.st_mtim};
     return true;
 }
 
-static bool take_stamps(const char *path, Stamp stamps[2])
+static bool take_stamps(const char *path, VolumeStamp stamps[2])
 {
     char raw[VOLUME_PATH_SIZE];
     VolumeHeader header;
@@ -304,15 +304,15 @@ static bool take_stamps(const char *path, Stamp stamps[2])
     return take_stamp(raw, &stamps[1]);
 }
 
-static bool same_stamp(const Stamp *a, const Stamp *b)
+static bool same_stamp(const VolumeStamp *a, const VolumeStamp *b)
 {
     return a->device == b->device && a->number == b->number && a->size == b->size &&
            a->written.tv_sec == b->written.tv_sec && a->written.tv_nsec == b->written.tv_nsec;
 }
 
-static KeptVolume *find_stamps(const Stamp stamps[2])
+static CachedVolume *find_stamps(const VolumeStamp stamps[2])
 {
-    for (KeptVolume *kept = all_kept; kept; kept = kept->next)
+    for (CachedVolume *kept = all_kept; kept; kept = kept->next)
         if (same_stamp(&kept->stamps[0], &stamps[0]) && same_stamp(&kept->stamps[1], &stamps[1]))
             return kept;
     return NULL;
@@ -344,9 +344,9 @@ const RangedVolume *volume_file_cached(const char *path, Error *error)
 {
     VolumeData volume;
     float *values;
-    Stamp stamps[2] = {{0}};
+    VolumeStamp stamps[2] = {{0}};
     const bool stamped = take_stamps(path, stamps);
-    KeptVolume *kept = stamped ? find_stamps(stamps) : NULL;
+    CachedVolume *kept = stamped ? find_stamps(stamps) : NULL;
     if (kept)
         return &kept->data;
     if (!volume_file_load(path, &volume, &values, error)) {

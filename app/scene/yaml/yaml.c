@@ -21,8 +21,8 @@ void *tree_alloc(YamlTree *tree, size_t size)
     size = (size + 15) & ~(size_t)15;
     YamlBlock *block = tree->blocks;
     if (!block || size > BLOCK_BYTES - block->used) {
-        const size_t room = size > BLOCK_BYTES ? size : BLOCK_BYTES;
-        block = calloc(1, sizeof *block + room);
+        const size_t capacity = size > BLOCK_BYTES ? size : BLOCK_BYTES;
+        block = calloc(1, sizeof *block + capacity);
         if (!block)
             return NULL;
         block->next = tree->blocks;

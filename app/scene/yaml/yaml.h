@@ -1,8 +1,8 @@
-/* YAML text as a tree with the line and column of each node: read, changed by `--set`, printed, patched
-   with comments kept, and its values read by the rows of the table of keys. Knows no scene.
+/* YAML text as a tree with the line and column of each node. The tree is read, changed by `--set`, printed,
+   patched with comments kept, and its values read by the rows of the table of keys. Knows no scene.
 
    Not libfyaml's own document tree (tried with 0.7.12): it gives positions of scalars only, where messages
-   need those of mappings and lists too; and its emitter kept one comment of seven of a small scene, and no
+   need those of mappings and lists too. Its emitter kept one comment of seven of a small scene, and no
    layout. The tree is made of libfyaml's events; one arena frees all memory, also after an error. Aliases,
    tags, several documents and duplicate keys are refused. */
 #ifndef APP_SCENE_YAML_YAML_H
@@ -93,6 +93,9 @@ bool yaml_read(YamlTree *tree, const char *said, const char *bytes, size_t size,
    be ...". */
 bool value_read(const YamlTree *tree, const Key *key, const YamlNode *node, const char *shown, char *base,
                 Error *error);
+
+/* True if the number lies in the key's range. */
+bool value_in_range(const Key *key, double number);
 
 /* Prints a tree as YAML. Comments and layout of the original text are lost. */
 

@@ -1,9 +1,8 @@
 #include "app/scene/yaml/yaml.h"
 
 #include "app/base/program.h"
-#include "sim/base/color.h"
+#include "sim/base/base.h"
 #include "sim/base/key.h"
-#include "sim/base/tables.h"
 #include "slosh/def.h"
 
 #include <math.h>
@@ -63,7 +62,7 @@ static bool number_parse(const YamlNode *node, double *out)
     return end != node->text && !*end;
 }
 
-static bool in_range(const Key *key, double number)
+bool value_in_range(const Key *key, double number)
 {
     return (key->flags & KEY_OPEN_LOW ? number > key->min : number >= key->min) && number <= key->max;
 }
@@ -77,7 +76,7 @@ static bool read_number(const Value *value, const YamlNode *node, const char *wa
     if (!isfinite(*out))
         return tree_error(value->tree, node, value->error, "%s must be a finite number, not %s", value->shown,
                           node->text);
-    if (in_range(key, *out))
+    if (value_in_range(key, *out))
         return true;
     key_bounds_text(key, range, sizeof range);
     return tree_error(value->tree, node, value->error, "%s must be %s%s%s, not %.60s", value->shown, range,
@@ -126,6 +125,18 @@ static bool read_words(const Value *value)
                                   "%s has no entry; give it at least one", value->shown);
 }
 
+/* Stores a text that fits. */
+static bool put_text(const Value *value, const char *words)
+{
+    if (!(value->key->flags & KEY_POINTER)) {
+        memcpy(value->field, words, strlen(words) + 1);
+        return true;
+    }
+    const char *text = text_intern(words);
+    *(const char **)value->field = text;
+    return text || tree_error(value->tree, value->node, value->error, "out of memory for %s", value->shown);
+}
+
 static bool read_text(const Value *value)
 {
     const YamlNode *node = value->node;
@@ -139,8 +150,7 @@ static bool read_text(const Value *value)
     if (strpbrk(node->text, "\n\r\t"))
         return tree_error(value->tree, node, value->error, "%s has more than one line; use one, without tabs",
                           value->shown);
-    memcpy(value->field, node->text, strlen(node->text) + 1);
-    return true;
+    return put_text(value, node->text);
 }
 
 static bool read_choice(const Value *value)
@@ -402,9 +412,10 @@ static bool read_settings(const Value *value)
     if (ok && size > value->key->size - 1)
         ok = tree_error(value->tree, node, value->error, "%s is too long; use at most %zu bytes",
                         value->shown, value->key->size - 1);
-    if (ok)
-        snprintf(value->field, value->key->size, "%.*s", (int)size - 1,
-                 text); /* without the final line end */
+    if (ok) {
+        text[size - 1] = '\0'; /* without the final line end */
+        ok = put_text(value, text);
+    }
     free(text);
     return ok;
 }

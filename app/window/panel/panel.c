@@ -1,7 +1,7 @@
 /* Overlay listing all user commands. */
 #include "app/window/panel/panel.h"
 
-#include "app/input/play_commands.h"
+#include "app/input/actions.h"
 #include "app/window/panel/panel_private.h"
 
 #include <math.h>
@@ -21,18 +21,18 @@ void panel_help_draw(Ui *ui, int width, int height)
                              .label_share = KEYS_SHARE};
     char keys[80], text[160];
     ui_window_begin(ui, &window);
-    play_command_keys_text(&play_command_rows[PLAY_HELP], keys, sizeof keys);
+    user_action_keys(&action_help, keys, sizeof keys);
     snprintf(text, sizeof text, "What you can do. %s closes this list.", keys);
     ui_text(ui, text);
     ui_gap(ui);
-    for (const PlayCommandRow *row = play_command_rows; row->name; row++) {
-        play_command_keys_text(row, keys, sizeof keys);
-        if (row->group) {
+    for (const UserAction *const *at = user_actions; *at; at++) {
+        user_action_keys(*at, keys, sizeof keys);
+        if ((*at)->group) {
             ui_gap(ui);
-            ui_text(ui, row->group);
-            ui_faint(ui, row->example);
+            ui_text(ui, (*at)->group);
+            ui_faint(ui, (*at)->example);
         }
-        ui_row(ui, keys, row->help);
+        ui_row(ui, keys, (*at)->help);
     }
     ui_window_end(ui);
 }
@@ -49,12 +49,12 @@ int panel_scenes_draw(Ui *ui, int width, int height, const PanelCard *cards, int
                              .pivot = {0.5F, 0.5F},
                              .width = fmaxf(fminf(floorf(SCENES_WIDTH_EM * em), (float)width - 2 * em), 1),
                              .height_most = fmaxf((float)height - 2 * em, 1)};
-    const float room = window.width - 3 * em;
-    const float columns = fmaxf(floorf(room / (CARD_EM * em)), 1);
+    const float capacity = window.width - 3 * em;
+    const float columns = fmaxf(floorf(capacity / (CARD_EM * em)), 1);
     char keys[80], text[160];
     int pressed = -1;
     ui_window_begin(ui, &window);
-    play_command_keys_text(&play_command_rows[PLAY_SCENES], keys, sizeof keys);
+    user_action_keys(&action_scenes, keys, sizeof keys);
     snprintf(text, sizeof text, "Scenes. A click opens one; %s closes this list.", keys);
     ui_text(ui, text);
     ui_gap(ui);
@@ -64,7 +64,7 @@ int panel_scenes_draw(Ui *ui, int width, int height, const PanelCard *cards, int
                              .text = cards[i].text,
                              .texture = cards[i].texture,
                              .shape = SHAPE,
-                             .width = floorf(room / columns - em)};
+                             .width = floorf(capacity / columns - em)};
         if (ui_card(ui, &card, cards[i].lit))
             pressed = i;
     }
@@ -74,17 +74,17 @@ int panel_scenes_draw(Ui *ui, int width, int height, const PanelCard *cards, int
 
 static const float TIMELINE_MARGIN_EM = 0.75F, BAR_EM = 1.5F, BUTTON_EM = 2, GAP_EM = 0.4F;
 static const float LETTERS_EM = 0.15F;     /* from the bar's upper edge to the words */
-static const float PADDING_EM = 9.0F / 13; /* of windows: render/ui/imgui.cpp */
+static const float PADDING_EM = 9.0F / 13; /* of windows: render/ui/ui.cpp */
 static const uint32_t INK = 0xe4e9eeff, FAINT = 0x8e9ba8ff, GROUND = 0x252d36ff, DONE = 0x2f6688ff,
                       LIT = 0x3b7fa8ff;
 
 typedef struct TimelineButton {
-    PlayCommand command;
+    const UserAction *action;
     const char *sign;
 } TimelineButton;
 
 static const TimelineButton buttons[] = {
-    {PLAY_PAUSE, "▶"}, {PLAY_STEP_BACK, "◀|"}, {PLAY_STEP, "|▶"}, {PLAY_NEWEST, "▶▶|"}};
+    {&action_pause, "▶"}, {&action_step_back, "◀|"}, {&action_step, "|▶"}, {&action_newest, "▶▶|"}};
 enum { BUTTONS = sizeof buttons / sizeof *buttons };
 
 float timeline_height(const Ui *ui)
@@ -101,13 +101,13 @@ static void draw_in_middle(Ui *ui, const float rect[4], uint32_t color, const ch
 
 static bool draw_timeline_button(Ui *ui, const TimelineButton *button, const float rect[4], bool playing)
 {
-    const PlayCommandRow *row = &play_command_rows[button->command];
+    const UserAction *action = button->action;
     char keys[80], help[200];
-    play_command_keys_text(row, keys, sizeof keys);
-    snprintf(help, sizeof help, "%s\n%s", row->help, keys);
-    const UiGrip grip = ui_grip(ui, &(UiField){.id = row->name, .help = help}, rect);
+    user_action_keys(action, keys, sizeof keys);
+    snprintf(help, sizeof help, "%s\n%s", action->help, keys);
+    const UiGrip grip = ui_grip(ui, &(UiField){.id = action->name, .help = help}, rect);
     ui_fill(ui, rect[0], rect[1], rect[2], rect[3], grip.hovered || grip.held ? LIT : GROUND);
-    draw_in_middle(ui, rect, INK, button->command == PLAY_PAUSE && playing ? "| |" : button->sign);
+    draw_in_middle(ui, rect, INK, action == &action_pause && playing ? "| |" : button->sign);
     return grip.pressed;
 }
 
@@ -123,7 +123,7 @@ static float draw_timeline_buttons(Ui *ui, const float area[4], const TimelineDa
             break;
         const float rect[4] = {floorf(x), area[1], floorf(x + wide), area[3]};
         if (draw_timeline_button(ui, &buttons[i], rect, data->playing))
-            events->command = buttons[i].command;
+            events->action = buttons[i].action;
         x += wide + GAP_EM * em;
     }
     return x;
@@ -152,8 +152,8 @@ static void draw_bar(Ui *ui, const float bar[4], const TimelineData *data, Timel
     const float thick = fmaxf(floorf(ui_pixels(ui) / 5), 2);
     const UiGrip grip = ui_grip(ui, &(UiField){.id = "time"}, bar);
     const double pointed = data->from + grip.x * (data->to - data->from);
-    const float room = bar[2] - bar[0] - thick;
-    const float at = floorf(bar[0] + room * (float)share_of(data, grip.held ? pointed : data->now));
+    const float capacity = bar[2] - bar[0] - thick;
+    const float at = floorf(bar[0] + capacity * (float)share_of(data, grip.held ? pointed : data->now));
     ui_fill(ui, bar[0], bar[1], bar[2], bar[3], GROUND);
     ui_fill(ui, bar[0], bar[1], at, bar[3], grip.held ? LIT : DONE);
     ui_fill(ui, at, bar[1], at + thick, bar[3], INK);
@@ -167,16 +167,16 @@ static void draw_bar(Ui *ui, const float bar[4], const TimelineData *data, Timel
 static float draw_words(Ui *ui, const float area[4], const TimelineData *data)
 {
     const float em = ui_pixels(ui), y = area[1] + LETTERS_EM * em;
-    char now[32], all[80], room[112] = "";
+    char now[32], all[80], capacity[112] = "";
     snprintf(now, sizeof now, "%.2f s", data->now);
     snprintf(all, sizeof all, " of %.2f to %.2f s%s", data->from, data->to, data->grows ? "" : ", its end");
     if (data->done > 0)
         snprintf(all + strlen(all), sizeof all - strlen(all), ", %3.0f %% of the session", 100 * data->done);
-    snprintf(room, sizeof room, "%s%s", now, all);
-    for (char *c = room; *c; c++)
+    snprintf(capacity, sizeof capacity, "%s%s", now, all);
+    for (char *c = capacity; *c; c++)
         if (*c >= '0' && *c <= '9')
             *c = '0';
-    const float wide = ui_words_width(ui, room), left = area[2] - wide;
+    const float wide = ui_words_width(ui, capacity), left = area[2] - wide;
     ui_words(ui, left, y, INK, now);
     ui_words(ui, left + ui_words_width(ui, now), y, FAINT, all);
     return left;
@@ -205,7 +205,7 @@ void timeline_draw(Ui *ui, int width, int height, float left, const TimelineData
                              .width = fmaxf((float)width - x - margin, 1),
                              .height_most = fmaxf(timeline_height(ui), 1)};
     float area[4];
-    *events = (TimelineEvents){.command = PLAY_NONE};
+    *events = (TimelineEvents){.action = NULL};
     ui_window_begin(ui, &window);
     if (ui_area(ui, BAR_EM, area))
         draw_line(ui, area, data, events);
@@ -324,22 +324,22 @@ static void plain_words(const char *name, char text[32])
             *c = ' ';
 }
 
-static bool draw_button(Ui *ui, const PlayCommandRow *row, bool lit)
+static bool draw_button(Ui *ui, const UserAction *action, bool lit)
 {
     char keys[64], help[160], label[32];
-    play_command_keys_text(row, keys, sizeof keys);
-    snprintf(help, sizeof help, "%s\n%s", row->help, keys);
-    plain_words(row->name, label);
-    return ui_button(ui, &(UiField){.id = row->name, .label = label, .help = help}, lit);
+    user_action_keys(action, keys, sizeof keys);
+    snprintf(help, sizeof help, "%s\n%s", action->help, keys);
+    plain_words(action->name, label);
+    return ui_button(ui, &(UiField){.id = action->name, .label = label, .help = help}, lit);
 }
 
 static void draw_buttons(Ui *ui, const PanelData *data, PanelEvents *events)
 {
-    for (const PlayCommandRow *row = play_command_rows; row->name; row++) {
-        if (!(row->flags & PLAY_BUTTON) || (data->recorded && row->flags & PLAY_SIMULATED))
+    for (const UserAction *const *at = user_actions; *at; at++) {
+        if (!((*at)->flags & ACTION_BUTTON) || (data->recorded && (*at)->needs & ACTION_OF_SIMULATION))
             continue;
-        if (draw_button(ui, row, row->command == PLAY_PAUSE && data->paused))
-            events->command = row->command;
+        if (draw_button(ui, *at, *at == &action_pause && data->paused))
+            events->action = *at;
     }
     ui_gap(ui);
 }
@@ -355,7 +355,7 @@ static void list_warnings(Ui *ui, const PanelData *data)
 static void draw_end(Ui *ui, const PanelData *data)
 {
     char keys[64], text[160];
-    play_command_keys_text(&play_command_rows[PLAY_PANEL], keys, sizeof keys);
+    user_action_keys(&action_panel, keys, sizeof keys);
     ui_gap(ui);
     snprintf(text, sizeof text, "%.100s", data->renderer);
     ui_faint(ui, text);
@@ -393,7 +393,7 @@ void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *da
                              .width = panel_width(ui, width) - 2 * margin,
                              .height_most = fmaxf((float)height - 2 * margin, 1),
                              .label_share = LABEL_SHARE};
-    *events = (PanelEvents){.command = PLAY_NONE};
+    *events = (PanelEvents){.action = NULL};
     follow_scene(panel, data);
     ui_window_begin(ui, &window);
     if (ui_title(ui, data->scene->title)) {
@@ -422,14 +422,13 @@ void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *da
 bool panel_opener_draw(Ui *ui, float below)
 {
     static const float AROUND_EM = 2.2F; /* around the words: padding of window and button */
-    const PlayCommandRow *row = &play_command_rows[PLAY_PANEL];
     const float em = ui_pixels(ui), margin = margin_of(ui);
     const UiWindow window = {.id = "opener",
                              .place = {margin, margin + below},
-                             .width = ceilf(ui_words_width(ui, row->name) + AROUND_EM * em),
+                             .width = ceilf(ui_words_width(ui, action_panel.name) + AROUND_EM * em),
                              .height_most = 4 * em};
     ui_window_begin(ui, &window);
-    const bool pressed = draw_button(ui, row, false);
+    const bool pressed = draw_button(ui, &action_panel, false);
     ui_window_end(ui);
     return pressed;
 }

@@ -5,11 +5,11 @@
 #ifndef APP_WINDOW_PANEL_PANEL_H
 #define APP_WINDOW_PANEL_PANEL_H
 
-#include "app/input/box_control.h"
+#include "app/input/input.h"
 #include "app/run/simulator.h"
 #include "app/scene/scene.h"
 #include "render/ui/ui.h"
-#include "sim/step/step_control.h"
+#include "sim/step/constants.h"
 #include "slosh/world.h"
 
 #include <stdbool.h>
@@ -32,7 +32,7 @@ typedef struct PanelData {
     int gauge_count;
     const ProbeSample *probes; /* the same for the scene's probes */
     int probe_count;
-    uint64_t shut;                  /* gates of emitters and drains: sim/flow/flow.h */
+    uint64_t closed_gates;          /* gates of emitters and drains: sim/flow/flow.h */
     double box_wanted[3], box_most; /* target size of the box; longest side in the scene file, m */
     size_t particles, particles_at_start;
     double particles_wished; /* from PanelEvents, while the mouse holds the slider; else 0 */
@@ -56,15 +56,16 @@ typedef struct PanelData {
     double panel_ms; /* mean CPU time of the panel per picture, over the last pictures */
 } PanelData;
 
-enum { PANEL_SETTINGS_MAX = 8, PANEL_SETTING_SIZE = 192 };
+enum { PANEL_VALUES_MAX = 8 };
 
 /* User requests. */
 typedef struct PanelEvents {
-    int setting_count;
-    char settings[PANEL_SETTINGS_MAX][PANEL_SETTING_SIZE]; /* "path=value", for scene_set_live */
-    int command;                                           /* a PlayCommand, or PLAY_NONE */
-    bool gated;                                            /* shut these gates: */
-    uint64_t shut;
+    int value_count;
+    SettingValue values[PANEL_VALUES_MAX]; /* for scene_set_value */
+    char term[SETTING_TEXT_SIZE];          /* "path=value" of a switched term, for scene_set_live; "": none */
+    const UserAction *action;              /* of the pressed button, or NULL */
+    bool gated;                            /* shut these gates: */
+    uint64_t closed_gates;
     bool sized; /* resize the box, m: */
     double size[3];
     double particles;    /* more than 0: requested number of particles */
@@ -93,7 +94,7 @@ bool panel_opener_draw(Ui *ui, float below);
 /* Draws all user commands with their keys, in the middle of the picture. */
 void panel_help_draw(Ui *ui, int width, int height);
 
-/* A scene to choose: app/window/scene_browser.h. */
+/* A scene to choose: app/window/play.h. */
 typedef struct PanelCard {
     const char *title, *text, *path;
     unsigned texture; /* the picture; 0: not ready */
@@ -123,7 +124,7 @@ typedef struct TimelineEvents {
     bool wants_time; /* the mouse holds the bar: show `time`. Set in every picture while held, moved or
                         not; the newest request counts */
     double time;     /* s, from .. to */
-    int command; /* of the pressed button: PLAY_PAUSE, PLAY_STEP_BACK, PLAY_STEP, PLAY_NEWEST; PLAY_NONE */
+    const UserAction *action; /* of the pressed button, or NULL */
 } TimelineEvents;
 
 /* Returns the height over the lower edge, with margin, pixels. */

@@ -1,32 +1,36 @@
 /* Widget of a live key. */
-#include "app/scene/keys.h"
+#include "app/scene/scene.h"
 #include "app/window/panel/panel_private.h"
 #include "render/frame/passes.h"
 #include "render/frame/view.h"
-#include "sim/base/color.h"
+#include "sim/base/base.h"
 #include "sim/base/key.h"
-#include "sim/base/tables.h"
 #include "sim/flow/flow.h"
 
 #include <ctype.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-static void emit(const PanelKey *row, PanelEvents *events, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+enum { DIGITS = 9, COLOR_DIGITS = 4 };
 
-static void emit(const PanelKey *row, PanelEvents *events, const char *format, ...)
+/* The next value to be filled in; in a full list the last one counts. */
+static SettingValue *emit(const PanelKey *row, PanelEvents *events)
 {
-    if (events->setting_count == PANEL_SETTINGS_MAX)
-        return;
-    char *setting = events->settings[events->setting_count++];
-    const int used = snprintf(setting, PANEL_SETTING_SIZE, "%.40s=", row->path);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(setting + used, PANEL_SETTING_SIZE - (size_t)used, format, arguments);
-    va_end(arguments);
+    if (events->value_count < PANEL_VALUES_MAX)
+        events->value_count++;
+    SettingValue *value = &events->values[events->value_count - 1];
+    *value = (SettingValue){.key = row->key, .element = row->element};
+    return value;
+}
+
+/* The number with a count of digits, for readable files. */
+static double rounded(double number, int digits)
+{
+    char text[40];
+    snprintf(text, sizeof text, "%.*g", digits, number);
+    return strtod(text, NULL);
 }
 
 /* Makes the help text of a key: meaning, range, unit and path. */
@@ -79,8 +83,12 @@ static void draw_number(Ui *ui, const PanelKey *row, const UiField *field, Panel
     legend_unit(key->unit, unit);
     const UiScale scale =
         scale_of(key, whole ? *(const int *)(start + at) : *(const double *)(start + at), value, unit);
-    if (ui_sliders(ui, field, &value, 1, &scale))
-        emit(row, events, "%.9g", value);
+    if (!ui_sliders(ui, field, &value, 1, &scale))
+        return;
+    if (whole)
+        emit(row, events)->whole = (int)value;
+    else
+        emit(row, events)->number[0] = rounded(value, DIGITS);
 }
 
 /* Draws three sliders of equal range around 0. */
@@ -98,8 +106,11 @@ static void draw_vector(Ui *ui, const PanelKey *row, const UiField *field, Panel
         reach = fmin(1, key->max);
     reach = fmin(reach, key->max);
     const UiScale scale = {.low = -reach, .high = reach, .least = key->min, .most = key->max, .unit = ""};
-    if (ui_sliders(ui, field, value, 3, &scale))
-        emit(row, events, "[%.9g, %.9g, %.9g]", value[0], value[1], value[2]);
+    if (!ui_sliders(ui, field, value, 3, &scale))
+        return;
+    SettingValue *set = emit(row, events);
+    for (int k = 0; k < 3; k++)
+        set->number[k] = rounded(value[k], DIGITS);
 }
 
 enum { CHOICES_MAX = 64 };
@@ -116,8 +127,13 @@ static void draw_choice(Ui *ui, const PanelKey *row, const UiField *field, Panel
     const char *names[CHOICES_MAX + 1] = {NULL};
     for (int i = 0; i < CHOICES_MAX && key_choice(key, i); i++)
         names[i] = key_choice(key, i);
-    if (ui_choice(ui, field, &chosen, names))
-        emit(row, events, "%s", key_choice(key, chosen));
+    if (!ui_choice(ui, field, &chosen, names))
+        return;
+    SettingValue *set = emit(row, events);
+    if (key->flags & KEY_INDEX)
+        set->whole = chosen;
+    else
+        snprintf(set->name, sizeof set->name, "%s", key_choice(key, chosen));
 }
 
 static void draw_color(Ui *ui, const PanelKey *row, const UiField *field, PanelEvents *events)
@@ -127,8 +143,27 @@ static void draw_color(Ui *ui, const PanelKey *row, const UiField *field, PanelE
     float srgb[3];
     for (int k = 0; k < 3; k++)
         srgb[k] = (float)linear_to_srgb(single ? ((const float *)value)[k] : ((const double *)value)[k]);
-    if (ui_color(ui, field, srgb))
-        emit(row, events, "[%.4g, %.4g, %.4g]", (double)srgb[0], (double)srgb[1], (double)srgb[2]);
+    if (!ui_color(ui, field, srgb))
+        return;
+    SettingValue *set = emit(row, events);
+    for (int k = 0; k < 3; k++) {
+        const double linear = srgb_to_linear(rounded((double)srgb[k], COLOR_DIGITS));
+        if (single)
+            set->single[k] = (float)linear;
+        else
+            set->number[k] = linear;
+    }
+}
+
+/* Ends of NULL: automatic, the ends stay. */
+static void emit_range(const PanelKey *row, PanelEvents *events, const double *ends, bool symmetric)
+{
+    SettingValue *set = emit(row, events);
+    for (int k = 0; k < 2; k++)
+        set->range.ends[k] = ends ? rounded(ends[k], DIGITS)
+                                  : ((const double *)((const char *)row->base + row->key->offset))[k];
+    set->range.automatic[0] = !ends;
+    set->range.automatic[1] = symmetric;
 }
 
 /* Draws automatic on or off; if off, both ends. */
@@ -142,16 +177,14 @@ static void draw_range(Ui *ui, const PanelKey *row, const UiField *field, PanelE
     snprintf(id, sizeof id, "%.40s.auto", row->path);
     const UiField follow = {.id = id, .label = "automatic range", .help = field->help};
     if (ui_checkbox(ui, &follow, &automatic)) {
-        if (automatic)
-            emit(row, events, "auto");
-        else
-            emit(row, events, "[%.9g, %.9g]", seen[0], seen[1] > seen[0] ? seen[1] : seen[0] + 1);
+        const double ends[2] = {seen[0], seen[1] > seen[0] ? seen[1] : seen[0] + 1};
+        emit_range(row, events, automatic ? NULL : ends, false);
         return;
     }
     snprintf(id_symmetric, sizeof id_symmetric, "%.40s.symmetric", row->path);
     const UiField about_0 = {.id = id_symmetric, .label = "symmetric about 0", .help = field->help};
     if (automatic && ui_checkbox(ui, &about_0, &symmetric))
-        emit(row, events, symmetric ? "symmetric" : "auto");
+        emit_range(row, events, NULL, symmetric);
     if (automatic)
         return;
     double ends[2] = {now[0], now[1]};
@@ -162,18 +195,19 @@ static void draw_range(Ui *ui, const PanelKey *row, const UiField *field, PanelE
                            .most = key->max,
                            .unit = ""};
     if (ui_sliders(ui, field, ends, 2, &scale) && ends[0] < ends[1])
-        emit(row, events, "[%.9g, %.9g]", ends[0], ends[1]);
+        emit_range(row, events, ends, false);
 }
 
-/* Rounds the numbers, so that eight points fit into a setting. */
+/* Rounds the numbers, so that eight points fit into a setting's text. */
 static void emit_points(const PanelKey *row, PanelEvents *events, const ControlPoints *points)
 {
-    char text[PANEL_SETTING_SIZE] = "[";
-    size_t used = 1;
-    for (int k = 0; k < points->count && used < sizeof text; k++)
-        used += (size_t)snprintf(text + used, sizeof text - used, "%s[%.3f, %.3f]", k > 0 ? ", " : "",
-                                 points->x[k], points->y[k]);
-    emit(row, events, "%s]", text);
+    static const double STEPS = 1000;
+    ControlPoints *set = &emit(row, events)->points;
+    *set = *points;
+    for (int k = 0; k < points->count; k++) {
+        set->x[k] = round(STEPS * points->x[k]) / STEPS;
+        set->y[k] = round(STEPS * points->y[k]) / STEPS;
+    }
 }
 
 /* Draws the preset, if the points match one, and the curve. */
@@ -196,7 +230,7 @@ static void draw_points(Ui *ui, const PanelKey *row, const UiField *field, Panel
     const UiField preset = {.id = id, .label = field->label, .help = field->help};
     const UiField curve = {.id = field->id, .label = "", .help = field->help};
     if (ui_choice(ui, &preset, &chosen, names) && chosen < count)
-        emit(row, events, "%s", presets[chosen].name);
+        emit(row, events)->points = presets[chosen].points;
     else if (ui_curve(ui, &curve, &points, row->key->max))
         emit_points(row, events, &points);
 }
@@ -216,7 +250,7 @@ static void panel_key(Ui *ui, const PanelKey *row, PanelEvents *events)
     case KEY_BOOLEAN:
         on = *((const bool *)row->base + row->key->offset);
         if (ui_checkbox(ui, &field, &on))
-            emit(row, events, "%s", on ? "true" : "false");
+            emit(row, events)->on = on;
         break;
     case KEY_CHOICE:
         draw_choice(ui, row, &field, events);
@@ -270,13 +304,13 @@ static const struct {
 };
 
 /* Live keys under a heading of their own: for pictures made for others. */
-static const char FILM_GROUP[] = "Film";
-static const char *const of_film[] = {"view.camera_turn", "view.carries_scene"};
+static const char RENDER_GROUP[] = "Film";
+static const char *const of_render[] = {"view.camera_turn", "view.carries_scene"};
 
-static bool is_of_film(const Key *key)
+static bool is_of_render(const Key *key)
 {
-    for (size_t i = 0; i < sizeof of_film / sizeof *of_film; i++)
-        if (strcmp(of_film[i], key->path) == 0)
+    for (size_t i = 0; i < sizeof of_render / sizeof *of_render; i++)
+        if (strcmp(of_render[i], key->path) == 0)
             return true;
     return false;
 }
@@ -326,8 +360,8 @@ static void group_of(const Key *key, char name[NAME_LENGTH])
 {
     const char *part;
     const size_t length = strcspn(key->path, ".["), own = part_of_view(key, &part);
-    if (is_of_film(key))
-        snprintf(name, NAME_LENGTH, "%s", FILM_GROUP);
+    if (is_of_render(key))
+        snprintf(name, NAME_LENGTH, "%s", RENDER_GROUP);
     else if (!key->path[length])
         snprintf(name, NAME_LENGTH, "World");
     else if (own > 0 && !is_a_view(part, own))
@@ -390,6 +424,7 @@ static void draw_element(Ui *ui, const Key *list, int index, const Scene *scene,
         path_of(&keys[i], index, path);
         panel_key(ui,
                   &(PanelKey){.key = &keys[i],
+                              .element = index,
                               .base = element,
                               .start = (const char *)start + key_list_at(list, index),
                               .path = path,
@@ -519,7 +554,7 @@ static bool is_on(const Scene *scene, const SceneTerm *term)
 static bool can_switch(const SceneTerm *term)
 {
     return term->key->flags & KEY_LIVE && strlen(term->value) < TERM_SIZE - 1 &&
-           strlen(term->path) + strlen("=") + strlen(term->value) < PANEL_SETTING_SIZE;
+           strlen(term->path) + strlen("=") + strlen(term->value) < SETTING_TEXT_SIZE;
 }
 
 /* Makes a label: "solver.artificial_viscosity", 0.05 becomes "solver artificial viscosity 0.05", which
@@ -541,9 +576,8 @@ static void draw_switch(Ui *ui, const SceneTerm *term, bool on, PanelEvents *eve
     term_label(term, label);
     key_help_text(term->key, help, sizeof help);
     const UiField field = {.id = id, .label = label, .help = help};
-    if (ui_checkbox(ui, &field, &on) && events->setting_count < PANEL_SETTINGS_MAX)
-        snprintf(events->settings[events->setting_count++], PANEL_SETTING_SIZE, "%s=%s", term->path,
-                 on ? term->value : term->key->off);
+    if (ui_checkbox(ui, &field, &on))
+        snprintf(events->term, sizeof events->term, "%s=%s", term->path, on ? term->value : term->key->off);
 }
 
 /* Shows a term fixed at the world's creation, and how to do without. */
@@ -632,12 +666,12 @@ void panel_restart(Ui *ui, const PanelData *data, int *fluid, PanelEvents *event
 static void draw_gate(Ui *ui, const PanelData *data, int gate, const char *label, PanelEvents *events)
 {
     char id[GATE_NAME_SIZE];
-    bool open = !gate_shut(events->gated ? events->shut : data->shut, gate);
+    bool open = !gate_is_closed(events->gated ? events->closed_gates : data->closed_gates, gate);
     gate_name(gate, id);
     const UiField field = {id, label, "open, or shut from the next step on"};
     if (!ui_checkbox(ui, &field, &open))
         return;
-    events->shut = (events->gated ? events->shut : data->shut) ^ 1ULL << gate;
+    events->closed_gates = (events->gated ? events->closed_gates : data->closed_gates) ^ 1ULL << gate;
     events->gated = true;
 }
 

@@ -142,7 +142,7 @@ enum { STAGE_INK = (int)0xe4e9eeffU, STAGE_FAINT = (int)0x8e9ba8ffU, TRACK = 0x2
 
 static const float LINE_EM = 1.4F;
 
-static uint32_t color_of(Part part)
+static uint32_t color_of(StagePart part)
 {
     switch (part) {
     case PART_SIM:
@@ -159,7 +159,7 @@ static uint32_t color_of(Part part)
 typedef struct StageLine {
     const char *name;
     double ms, share; /* of the total */
-    Part part;
+    StagePart part;
 } StageLine;
 
 /* Collects the stages that ran; simulation or rendering get a single line if their stages are unknown. */
@@ -168,7 +168,7 @@ static int gather(const PanelData *data, StageLine lines[STAGE_COUNT + 1], doubl
     int count = 0;
     *all = 0;
     for (int i = 0; i < STAGE_COUNT; i++) {
-        const Part part = stage_part(i);
+        const StagePart part = stage_part(i);
         if (data->stage_ran[i] && (part != PART_RENDER || data->render_stages_known))
             lines[count++] = (StageLine){.name = stage_name(i), .ms = data->stage_ms[i], .part = part};
     }
@@ -463,8 +463,13 @@ bool panel_probes(Ui *ui, const PanelData *data)
     int first = 0;
     if (list->count == 0 || !ui_section(ui, "Probes", true))
         return false;
-    for (int k = 0; k < list->count; k++)
+    for (int k = 0; k < list->count && k < PROBES_PLOTTED; k++)
         first += draw_probe(ui, data, &list->probe[k], first);
+    if (list->count > PROBES_PLOTTED) {
+        char more[64];
+        snprintf(more, sizeof more, "and %d more: slosh run --probes", list->count - PROBES_PLOTTED);
+        ui_text(ui, more);
+    }
     return true;
 }
 

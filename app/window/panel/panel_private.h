@@ -49,13 +49,14 @@ void panel_view(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *
 void panel_colors(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events);
 void panel_scene(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events);
 
-/* A switch for each term of the scene's model at the start (app/scene/keys.h). */
+/* A switch for each term of the scene's model at the start (app/scene/scene.h). */
 void panel_terms(Ui *ui, const Scene *scene, const Scene *start, PanelEvents *events);
 
 /* The widget of a live key, and its events. `base` and `start`: base addresses of the key's offset;
    `path`: with indices; `label`: text before the widget. */
 typedef struct PanelKey {
     const struct Key *key;
+    int element; /* of the list around the key, or 0 */
     const void *base, *start;
     const char *path, *label;
     const double *range_now; /* for a range: its present values while automatic */

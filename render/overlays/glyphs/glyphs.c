@@ -3,11 +3,10 @@
 #include "render/frame/frame.h"
 #include "render/overlays/glyphs/glyphs_private.h"
 #include "render/particles/particles.h"
-#include "render/particles/plane.h"
 #include "shaders/glyphs/glyphs_bindings.h"
 #include "shaders/shared/bindings.h"
 #include "sim/base/key_rows.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -38,7 +38,7 @@ typedef struct GlyphTallies {
 } GlyphTallies;
 
 /* The magnitude that nineteen of twenty arrows (of those above 0) do not exceed, to a bin of an eighth of
-   an octave, rounded up to 1, 1.5, 2, 3, 5 or 7 times a power of ten; 0 without arrows. */
+   an octave, rounded up to 1, 1.5, 2, 3, 5 or 7 times a power of ten. 0 without arrows. */
 double glyph_typical_magnitude(const GlyphTally *tally);
 
 /* The arrows of the present state on the GPU: feet and vectors.

@@ -1,7 +1,7 @@
 #include "render/overlays/trails/trails_private.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/trails/trails_bindings.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -32,7 +32,7 @@ void trail_lines_destroy(TrailLines *lines)
     glDeleteVertexArrays(1, &lines->screen);
     glDeleteFramebuffers(1, &lines->framebuffer);
     color_table_destroy(&lines->colors);
-    glDeleteTextures(1, &lines->kept);
+    glDeleteTextures(1, &lines->fixed);
     quad_indices_destroy(&lines->quads);
     trail_canvas_destroy(&lines->sheet);
     free(lines->pieces);
@@ -87,14 +87,14 @@ static bool same_look(const TrailLook *a, const TrailLook *b)
 
 static void follow_size(TrailLines *lines, const TrailLook *look)
 {
-    if (lines->kept && !lines->look.by_cpu && look->width == lines->look.width &&
+    if (lines->fixed && !lines->look.by_cpu && look->width == lines->look.width &&
         look->height == lines->look.height)
         return;
-    glDeleteTextures(1, &lines->kept);
-    glCreateTextures(GL_TEXTURE_2D, 1, &lines->kept);
-    glObjectLabel(GL_TEXTURE, lines->kept, -1, "trails");
-    glTextureStorage2D(lines->kept, 1, GL_RGBA32F, look->width, look->height);
-    glNamedFramebufferTexture(lines->framebuffer, GL_COLOR_ATTACHMENT0, lines->kept, 0);
+    glDeleteTextures(1, &lines->fixed);
+    glCreateTextures(GL_TEXTURE_2D, 1, &lines->fixed);
+    glObjectLabel(GL_TEXTURE, lines->fixed, -1, "trails");
+    glTextureStorage2D(lines->fixed, 1, GL_RGBA32F, look->width, look->height);
+    glNamedFramebufferTexture(lines->framebuffer, GL_COLOR_ATTACHMENT0, lines->fixed, 0);
 }
 
 static void set_lines(const TrailLook *look, GLuint program)
@@ -180,7 +180,7 @@ static TrailPieces pieces_of(const TrailStore *store, const uint64_t numbers[3],
 }
 
 /* The end column of the pieces that start at `from`: a multiple of the step, so that old pieces stay the
-   same, or the last fixed column; after that the present column. */
+   same, or the last fixed column. After that the present column. */
 static uint64_t next_column(const TrailLines *lines, const TrailRing *ring, uint64_t from)
 {
     const uint64_t next = (from / lines->step + 1) * lines->step;
@@ -279,7 +279,7 @@ static void show_all(TrailLines *lines, const TrailStore *store, const Frame *fr
     glDepthMask(frame->depths);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
-    glBindTextureUnit(TRAIL_LINES_UNIT, lines->kept);
+    glBindTextureUnit(TRAIL_LINES_UNIT, lines->fixed);
     color_table_update(&lines->colors, view_colormap(frame->def), &frame->def->color_curve);
     frame_set_scissor(frame);
     show(lines, store, frame, all ? GL_ALWAYS : GL_GEQUAL, 1);

@@ -1,7 +1,7 @@
 #include "render/overlays/trails/trails_private.h"
 #include "shaders/trails/trails_bindings.h"
-#include "sim/base/parallel.h"
-#include "sim/gpu/program.h"
+#include "sim/base/base.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -270,11 +270,11 @@ static bool trail_rows_draw(TrailRows *rows, const TrailSight *sight, const Trai
     const int threads = parallel_processors();
     if (count == 0)
         return true;
-    const size_t room = 3 * SEEN_FLOATS * slots * (size_t)threads;
-    if (room > rows->seen_capacity) {
+    const size_t capacity = 3 * SEEN_FLOATS * slots * (size_t)threads;
+    if (capacity > rows->seen_capacity) {
         free(rows->seen);
-        rows->seen = malloc(room * sizeof *rows->seen);
-        rows->seen_capacity = rows->seen ? room : 0;
+        rows->seen = malloc(capacity * sizeof *rows->seen);
+        rows->seen_capacity = rows->seen ? capacity : 0;
         if (!rows->seen)
             return false;
     }
@@ -341,11 +341,11 @@ static void free_buffers(TrailCanvas *sheet)
     glDeleteTextures(1, &sheet->texels);
     glDeleteBuffers(1, &sheet->pixels);
     glDeleteBuffers(1, &sheet->list);
-    free(sheet->kept.pixels);
-    free(sheet->kept.tiles);
+    free(sheet->fixed.pixels);
+    free(sheet->fixed.tiles);
     free(sheet->shown.tiles);
     free(sheet->changed);
-    sheet->kept = sheet->shown = (TrailPicture){0};
+    sheet->fixed = sheet->shown = (TrailPicture){0};
     sheet->changed = NULL;
     sheet->texels = sheet->pixels = sheet->list = 0;
     sheet->block = NULL;
@@ -377,8 +377,8 @@ static void *make_picture(unsigned *buffer, size_t bytes, const char *label)
 
 static void make_buffers(TrailCanvas *sheet, size_t pixels, size_t tiles)
 {
-    sheet->kept.pixels = calloc(pixels, sizeof(float[4]));
-    sheet->kept.tiles = calloc(tiles, 1);
+    sheet->fixed.pixels = calloc(pixels, sizeof(float[4]));
+    sheet->fixed.tiles = calloc(tiles, 1);
     sheet->shown.pixels = make_picture(&sheet->pixels, pixels * sizeof(float[4]), "trails");
     sheet->shown.tiles = calloc(tiles, 1);
     sheet->changed = calloc(tiles, 1);
@@ -393,14 +393,14 @@ bool trail_canvas_update(TrailCanvas *sheet, int width, int height, bool *anew)
                              .height = height,
                              .columns = (width + TRAIL_TILE - 1) / TRAIL_TILE,
                              .rows = (height + TRAIL_TILE - 1) / TRAIL_TILE};
-    *anew = !sheet->block || sheet->kept.width != width || sheet->kept.height != height;
+    *anew = !sheet->block || sheet->fixed.width != width || sheet->fixed.height != height;
     if (!*anew)
         return true;
     free_buffers(sheet);
-    sheet->kept = sheet->shown = of;
+    sheet->fixed = sheet->shown = of;
     make_buffers(sheet, (size_t)width * (size_t)height, (size_t)of.columns * (size_t)of.rows);
-    const bool made = sheet->kept.pixels && sheet->kept.tiles && sheet->shown.pixels && sheet->shown.tiles &&
-                      sheet->changed && sheet->block;
+    const bool made = sheet->fixed.pixels && sheet->fixed.tiles && sheet->shown.pixels &&
+                      sheet->shown.tiles && sheet->changed && sheet->block;
     if (!made)
         free_buffers(sheet);
     return made;
@@ -408,9 +408,9 @@ bool trail_canvas_update(TrailCanvas *sheet, int width, int height, bool *anew)
 
 void trail_canvas_clear(TrailCanvas *sheet)
 {
-    for (size_t i = 0; i < (size_t)sheet->kept.columns * (size_t)sheet->kept.rows; i++)
-        sheet->changed[i] |= sheet->kept.tiles[i];
-    trail_picture_clear(&sheet->kept);
+    for (size_t i = 0; i < (size_t)sheet->fixed.columns * (size_t)sheet->fixed.rows; i++)
+        sheet->changed[i] |= sheet->fixed.tiles[i];
+    trail_picture_clear(&sheet->fixed);
 }
 
 /* Restores the tiles drawn over in the last picture, or changed since, from `kept`. */
@@ -418,7 +418,7 @@ static void restore_shown(TrailCanvas *sheet, size_t tiles)
 {
     for (size_t i = 0; i < tiles; i++) {
         if (sheet->shown.tiles[i] | sheet->changed[i])
-            trail_picture_copy(&sheet->shown, &sheet->kept, i);
+            trail_picture_copy(&sheet->shown, &sheet->fixed, i);
         sheet->shown.tiles[i] = sheet->changed[i] = 0;
     }
 }
@@ -427,12 +427,12 @@ static void restore_shown(TrailCanvas *sheet, size_t tiles)
 static bool is_block(const TrailCanvas *sheet, int column, int row)
 {
     enum { SIDE = TRAIL_BLOCK_SIDE / TRAIL_TILE };
-    const TrailPicture *kept = &sheet->kept;
+    const TrailPicture *fixed = &sheet->fixed;
     bool any = false;
-    for (int y = SIDE * row; y < SIDE * (row + 1) && y < kept->rows; y++)
-        for (int x = SIDE * column; x < SIDE * (column + 1) && x < kept->columns; x++) {
-            const size_t tile = (size_t)y * (size_t)kept->columns + (size_t)x;
-            any |= kept->tiles[tile] | sheet->shown.tiles[tile];
+    for (int y = SIDE * row; y < SIDE * (row + 1) && y < fixed->rows; y++)
+        for (int x = SIDE * column; x < SIDE * (column + 1) && x < fixed->columns; x++) {
+            const size_t tile = (size_t)y * (size_t)fixed->columns + (size_t)x;
+            any |= fixed->tiles[tile] | sheet->shown.tiles[tile];
         }
     return any;
 }
@@ -445,7 +445,7 @@ static int blocks_along(int pixels)
 /* Lists neighbouring blocks of a row as one entry. */
 static void list(TrailCanvas *sheet)
 {
-    const int columns = blocks_along(sheet->kept.width), rows = blocks_along(sheet->kept.height);
+    const int columns = blocks_along(sheet->fixed.width), rows = blocks_along(sheet->fixed.height);
     sheet->blocks = 0;
     for (int row = 0; row < rows; row++)
         for (int first = 0, end; first < columns; first = end + 1) {
@@ -459,12 +459,12 @@ static void list(TrailCanvas *sheet)
 bool trail_canvas_draw(TrailCanvas *sheet, const TrailSight *sight, const TrailPieces *pieces, size_t fixed,
                        size_t count, size_t slots)
 {
-    const size_t tiles = (size_t)sheet->kept.columns * (size_t)sheet->kept.rows;
-    const TrailPicture into_kept = {sheet->kept.pixels, sheet->changed,      sheet->kept.width,
-                                    sheet->kept.height, sheet->kept.columns, sheet->kept.rows};
+    const size_t tiles = (size_t)sheet->fixed.columns * (size_t)sheet->fixed.rows;
+    const TrailPicture into_kept = {sheet->fixed.pixels, sheet->changed,       sheet->fixed.width,
+                                    sheet->fixed.height, sheet->fixed.columns, sheet->fixed.rows};
     bool drawn = trail_rows_draw(&sheet->rows, sight, pieces, fixed, slots, &into_kept);
     for (size_t i = 0; i < tiles; i++)
-        sheet->kept.tiles[i] |= sheet->changed[i];
+        sheet->fixed.tiles[i] |= sheet->changed[i];
     restore_shown(sheet, tiles);
     drawn =
         drawn && trail_rows_draw(&sheet->rows, sight, pieces + fixed, count - fixed, slots, &sheet->shown);

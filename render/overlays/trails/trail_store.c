@@ -3,15 +3,43 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/trails/trails_bindings.h"
 #include "sim/flow/flow.h"
-#include "sim/gpu/gl_context.h"
-#include "sim/gpu/program.h"
-#include "sim/gpu/timer.h"
-#include "sim/start/seed.h"
+#include "sim/gpu/gl.h"
+#include "sim/start/start.h"
 
 #include <epoxy/gl.h>
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+int trails_listed_ids(const TrailsDef *def, uint32_t ids[TRAILS_LISTED_MAX])
+{
+    int count = 0;
+    const char *at = def->ids + strspn(def->ids, " ,");
+    if (strcmp(def->ids, "all") == 0)
+        return 0;
+    while (*at) {
+        char *end = NULL;
+        const unsigned long long id = *at >= '0' && *at <= '9' ? strtoull(at, &end, 10) : ULLONG_MAX;
+        if (id > INT64_MAX || count == TRAILS_LISTED_MAX || !strchr(" ,", *end))
+            return -1;
+        ids[count++] = (uint32_t)id; /* as buffers have them: 32 of 64 bits */
+        at = end + strspn(end, " ,");
+    }
+    return count > 0 ? count : -1;
+}
+
+double trails_every(const TrailsDef *def)
+{
+    enum { USUAL_POINTS = 64 };
+    const double least = def->length / (TRAILS_POINTS_MAX - 2);
+    return fmax(def->every > 0 ? def->every : def->length / USUAL_POINTS, least);
+}
+
+static int trails_points(const TrailsDef *def)
+{
+    return (int)fmin(ceil(def->length / trails_every(def)), TRAILS_POINTS_MAX - 2) + 2;
+}
 
 bool trail_ring_create(TrailRing *ring, double length, double every, int points)
 {

@@ -34,40 +34,6 @@ const Key trails_keys[] = {
 };
 /* clang-format on */
 
-TrailsDef *trails_def(const ViewDef *def)
-{
-    return overlay_own_settings(def, &overlay_trails);
-}
-
-int trails_listed_ids(const TrailsDef *def, uint32_t ids[TRAILS_LISTED_MAX])
-{
-    int count = 0;
-    const char *at = def->ids + strspn(def->ids, " ,");
-    if (strcmp(def->ids, "all") == 0)
-        return 0;
-    while (*at) {
-        char *end = NULL;
-        const unsigned long long id = *at >= '0' && *at <= '9' ? strtoull(at, &end, 10) : ULLONG_MAX;
-        if (id > INT64_MAX || count == TRAILS_LISTED_MAX || !strchr(" ,", *end))
-            return -1;
-        ids[count++] = (uint32_t)id; /* as buffers have them: 32 of 64 bits */
-        at = end + strspn(end, " ,");
-    }
-    return count > 0 ? count : -1;
-}
-
-double trails_every(const TrailsDef *def)
-{
-    enum { USUAL_POINTS = 64 };
-    const double least = def->length / (TRAILS_POINTS_MAX - 2);
-    return fmax(def->every > 0 ? def->every : def->length / USUAL_POINTS, least);
-}
-
-int trails_points(const TrailsDef *def)
-{
-    return (int)fmin(ceil(def->length / trails_every(def)), TRAILS_POINTS_MAX - 2) + 2;
-}
-
 typedef struct Trails {
     TrailStore store;
     TrailLines lines;
@@ -152,9 +118,9 @@ static void wants(const ViewDef *def, ParticleWants *wants)
 /* Returns false, and adds nothing, if the list is full. */
 static bool add_id(char list[TRAILS_IDS_SIZE], uint32_t id)
 {
-    const size_t used = strlen(list), room = TRAILS_IDS_SIZE - used;
-    const int needs = snprintf(list + used, room, "%s%u", used ? " " : "", id);
-    const bool fits = needs >= 0 && (size_t)needs < room;
+    const size_t used = strlen(list), capacity = TRAILS_IDS_SIZE - used;
+    const int needs = snprintf(list + used, capacity, "%s%u", used ? " " : "", id);
+    const bool fits = needs >= 0 && (size_t)needs < capacity;
     if (!fits)
         list[used] = 0;
     return fits;

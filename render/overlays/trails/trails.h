@@ -32,11 +32,13 @@ typedef struct MAY_ALIAS TrailsDef {
 extern const OverlayKind overlay_trails;
 
 /* The settings of a def; not const, like memchr's result. */
-TrailsDef *trails_def(const ViewDef *def);
+static inline TrailsDef *trails_def(const ViewDef *def)
+{
+    return overlay_own_settings(def, &overlay_trails);
+}
 
-/* Seconds between two points; largest number of points of a trail. */
+/* Seconds between two points. */
 double trails_every(const TrailsDef *def);
-int trails_points(const TrailsDef *def);
 
 /* The ids in TrailsDef.ids, at most TRAILS_LISTED_MAX. Returns their number; 0 for "all", -1 for an
    invalid list. */

@@ -144,7 +144,7 @@ typedef struct TrailRows {
 typedef struct TrailCanvas {
     unsigned program;
     unsigned none;           /* vertex array without attributes */
-    TrailPicture kept;       /* the fixed pieces, in memory */
+    TrailPicture fixed;      /* the fixed pieces, in memory */
     TrailPicture shown;      /* with the present state, in a mapped buffer */
     unsigned pixels, texels; /* that buffer and its texture */
     uint8_t *changed;        /* tiles of `kept` changed since the last copy to `shown` */
@@ -197,7 +197,7 @@ typedef struct TrailLook {
 typedef struct TrailLines {
     unsigned lines, head, show; /* programs */
     unsigned screen;            /* vertex array without attributes */
-    unsigned kept, framebuffer;
+    unsigned fixed, framebuffer;
     ColorTable colors;
     QuadIndices quads;
     TrailLook look; /* inputs of the kept picture */

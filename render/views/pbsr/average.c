@@ -1,9 +1,9 @@
 #include "render/views/pbsr/pbsr.h"
 
-#include "render/views/pbsr/pbsr_sets.h"
+#include "render/frame/passes.h"
+#include "render/views/pbsr/pbsr_private.h"
 #include "shaders/pbsr/pbsr_block.h"
-#include "sim/gpu/gl_context.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -49,9 +49,7 @@ static GLuint make_texture(const Target *target, GLenum format, const char *labe
     GLuint texture;
     glCreateTextures(GL_TEXTURE_2D, 1, &texture);
     glObjectLabel(GL_TEXTURE, texture, -1, label);
-    gl_debug_asks_for_memory(true);
     glTextureStorage2D(texture, 1, format, target->width, target->height);
-    gl_debug_asks_for_memory(false);
     glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
@@ -102,11 +100,9 @@ static bool make_sets(Average *average, size_t bytes)
     glCreateBuffers(1, &average->sets);
     glObjectLabel(GL_BUFFER, average->sets, -1, "sets of points");
     gl_debug_errors(); /* drops earlier errors: the query below is for this buffer */
-    gl_debug_asks_for_memory(true);
     glNamedBufferStorage(average->sets, (GLsizeiptr)bytes, NULL, average->by_cpu ? WAYS : 0);
     if (average->by_cpu)
         average->mapped = glMapNamedBufferRange(average->sets, 0, (GLsizeiptr)bytes, WAYS);
-    gl_debug_asks_for_memory(false);
     if (gl_errors_take(0) > 0 || (average->by_cpu && !average->mapped))
         return false;
     average->bytes = bytes;
@@ -152,8 +148,9 @@ static SetSight sight_of(const Average *average, const Frame *frame)
     }
     sight.edges = (float)pbsr_def(frame->def)->edges;
     set_sight_find_eye(&sight);
-    sight.low = frame->by_fluid ? 0 : (float)frame->range[0];
-    sight.scale = 1 / (frame->by_fluid ? FLUIDS_MAX - 1 : (float)(frame->range[1] - frame->range[0]));
+    sight.low = frame->colors.by_fluid ? 0 : (float)frame->colors.range[0];
+    sight.scale = 1 / (frame->colors.by_fluid ? FLUIDS_MAX - 1
+                                              : (float)(frame->colors.range[1] - frame->colors.range[0]));
     return sight;
 }
 
@@ -189,7 +186,7 @@ bool average_begin(Average *average, const Frame *frame, const AverageLook looks
     if (!follow_target(average, frame->target, error))
         return false;
     follow_part(average, frame, whole);
-    average->split = frame->overlay_depth != 0;
+    average->split = frame_over_depth(frame) != 0;
     if (!follow_sets(average, error))
         return false;
     average->sight = sight_of(average, frame);
@@ -318,7 +315,8 @@ void average_add(Average *average, int sets, const Frame *frame)
     glBindBufferBase(GL_UNIFORM_BUFFER, PBSR_BLOCK, average->block);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SETS_STORAGE, average->sets);
     glBindTextureUnit(SETS_DEPTH_UNIT, frame->target->depth);
-    glBindTextureUnit(SETS_OVER_UNIT, frame->overlay_depth ? frame->overlay_depth : frame->target->depth);
+    const GLuint over = frame_over_depth(frame);
+    glBindTextureUnit(SETS_OVER_UNIT, over ? over : frame->target->depth);
     color_table_bind(&average->colors, &frame->def->color_curve);
     glDisable(GL_DEPTH_TEST);
     glBlendFunc(GL_ONE, GL_ONE);

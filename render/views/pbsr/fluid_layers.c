@@ -1,6 +1,5 @@
-#include "render/views/pbsr/pbsr_layers.h"
-#include "render/views/pbsr/pbsr_sets.h"
-#include "sim/base/parallel.h"
+#include "render/views/pbsr/pbsr_private.h"
+#include "sim/base/base.h"
 #include "sim/kernel/kernel.h"
 #include "slosh/mesh.h"
 
@@ -50,7 +49,7 @@ static bool reserve_particles(FluidField *fluid, const ParticleBuffers *particle
     return grow_array((void **)&fluid->raw, &sizes[0], count * width / sizeof(float), sizeof(float)) &&
            grow_array((void **)&fluid->position, &sizes[1], 4 * count, sizeof(float)) &&
            grow_array((void **)&fluid->value, &sizes[2], count, sizeof(float)) &&
-           grow_array((void **)&fluid->kept, &sizes[3], count, sizeof(uint32_t));
+           grow_array((void **)&fluid->members, &sizes[3], count, sizeof(uint32_t));
 }
 
 static void read_raw(FluidField *fluid, const ParticleAttribute *from, size_t count)
@@ -83,7 +82,7 @@ static void read_positions(FluidField *fluid, const FluidFieldJob *job, float sc
         at[2] = job->flat > 0 ? 0 : at[2];
         at[3] *= scale;
         memcpy(fluid->position + 4 * fluid->count, at, sizeof at);
-        fluid->kept[fluid->count++] = (uint32_t)i;
+        fluid->members[fluid->count++] = (uint32_t)i;
     }
 }
 
@@ -96,7 +95,7 @@ static bool read_values(FluidField *fluid, const ParticleBuffers *particles, Sca
     if (from->buffer)
         read_raw(fluid, from, particles->count);
     for (size_t i = 0; i < fluid->count; i++) {
-        const float *at = fluid->raw + words * fluid->kept[i];
+        const float *at = fluid->raw + words * fluid->members[i];
         uint32_t number;
         float value = 0;
         if (from->buffer)
@@ -243,7 +242,8 @@ static bool fluid_field_make(FluidField *fluid, const FluidFieldJob *job, Error 
     return true;
 }
 
-void fluid_field_place(const FluidField *fluid, const double index[3], double place[3])
+/* The position of a value of the grid, or between values: m. */
+static void place_of(const FluidField *fluid, const double index[3], double place[3])
 {
     for (int k = 0; k < 3; k++)
         place[k] = fluid->grid.corner[k] + (index[k] + 0.5) * fluid->side[k];
@@ -273,7 +273,7 @@ static void fluid_field_free(FluidField *fluid)
     free(fluid->raw);
     free(fluid->value);
     free(fluid->known);
-    free(fluid->kept);
+    free(fluid->members);
     free(fluid->field);
     for (int m = 0; m < FLUID_MEANS_MAX; m++)
         free(fluid->mean[m]);
@@ -329,7 +329,7 @@ static void set_vertex(const FluidLayersJob *making, const IsoMesh *mesh, size_t
     const FluidField *fluid = &making->out->fluid;
     double index[3], place[3];
     isosurface_place(mesh, v, index);
-    fluid_field_place(fluid, index, place);
+    place_of(fluid, index, place);
     isosurface_slope(mesh, v, values, out->normal);
     for (int k = 0; k < 3; k++) {
         out->at[k] = (float)place[k];
@@ -378,7 +378,7 @@ static bool make_slice(const FluidLayersJob *making, int axis, double level, Lay
         const size_t column = i % width, row = i / width;
         index[u] = (double)column;
         index[v] = (double)row;
-        fluid_field_place(fluid, index, place);
+        place_of(fluid, index, place);
         *point = (LayerPoint){.at = {(float)place[0], (float)place[1], (float)place[2]},
                               .value = making->color ? value_at(fluid, making->color, index) : 0,
                               .inside = value_at(fluid, fluid->field, index) - FLUID_LEAST};
@@ -411,7 +411,7 @@ static bool make_volume(const FluidLayersJob *making, LayerPieces *out)
         double place[3];
         if (!(fluid->field[i] > 0))
             continue;
-        fluid_field_place(fluid, index, place);
+        place_of(fluid, index, place);
         if (out->slab)
             place[2] = 0;
         out->point[out->point_count++] =

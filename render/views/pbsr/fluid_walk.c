@@ -1,7 +1,6 @@
-#include "render/views/pbsr/pbsr_layers.h"
-#include "render/views/pbsr/pbsr_sets.h"
-#include "sim/base/parallel.h"
-#include "sim/points/sampling.h"
+#include "render/views/pbsr/pbsr_private.h"
+#include "sim/base/base.h"
+#include "sim/points/points.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,4 @@
-#include "render/views/pbsr/pbsr_layers.h"
-#include "render/views/pbsr/pbsr_sets.h"
+#include "render/views/pbsr/pbsr_private.h"
 
 #include <math.h>
 #include <stdarg.h>

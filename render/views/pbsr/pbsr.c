@@ -1,159 +1,16 @@
 #include "render/views/pbsr/pbsr.h"
 
+#include "render/frame/passes.h"
 #include "render/particles/particles.h"
-#include "render/views/pbsr/pbsr_layers.h"
-#include "render/views/pbsr/pbsr_sets.h"
-#include "sim/base/key_rows.h"
-#include "sim/base/parallel.h"
-#include "sim/gpu/gl_context.h"
+#include "render/views/pbsr/pbsr_private.h"
+#include "sim/base/base.h"
+#include "sim/gpu/gl.h"
 #include "slosh/world.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-const PbsrDef pbsr_usual = {.repeat = 64, .budget = 40, .cell = 0.75, .points = 1.2e7, .seed = 1};
-
-/* The layer of an empty list. */
-static const PbsrLayer usual_layer = {
-    .of = PBSR_SURFACE, .level = 0.5, .opacity = 0.4, .file = "none", .axis = {0, 1, 0}};
-
-static const char *const sampler_names[] = {
-    [PBSR_SAMPLER_AUTO] = "auto", [PBSR_SAMPLER_WALK] = "walk", [PBSR_SAMPLER_TRIANGLES] = "triangles", NULL};
-
-static const char *interpolation_name(int index)
-{
-    return index == PBSR_BY_ITSELF ? "auto"
-                                   : volume_interpolation_name((VolumeInterpolation)(index - PBSR_BY_GRID));
-}
-
-const char *pbsr_layer_name(int index)
-{
-    static const char *const names[PBSR_SCALARS] = {
-        [PBSR_SURFACE] = "surface", [PBSR_VOLUME] = "volume",   [PBSR_SLICE_X] = "slice_x",
-        [PBSR_SLICE_Y] = "slice_y", [PBSR_SLICE_Z] = "slice_z", [PBSR_SPHERE] = "sphere",
-        [PBSR_TORUS] = "torus",     [PBSR_GYROID] = "gyroid",   [PBSR_WAVE] = "wave",
-        [PBSR_SOLIDS] = "solids"};
-    return index < PBSR_SCALARS ? names[index] : scalar_list[index - PBSR_SCALARS].name;
-}
-
-static const char *const method_names[] = {
-    [PBSR_AUTO] = "auto", [PBSR_CPU] = "cpu", [PBSR_GPU] = "gpu", NULL};
-
-static void layer_init(void *element, int index)
-{
-    (void)index;
-    *(PbsrLayer *)element = usual_layer;
-}
-
-#define AT(field)    offsetof(PbsrDef, field)
-#define LAYER(field) offsetof(PbsrLayer, field)
-
-/* clang-format off */
-const Key pbsr_keys[] = {
-    MAPPING("view.pbsr", "of the view pbsr: transparent layers of points, without sorting"),
-    LIST("view.pbsr.layers", 0, 0, PBSR_LAYERS_MAX, AT(layers), AT(layer_count), PbsrLayer, layer_init,
-         "surfaces, slices and volume, which may cross each other; none: the fluid's surface alone"),
-    CHOICE("view.pbsr.layers[].of", L | KEY_INDEX, pbsr_layer_name, LAYER(of),
-           "surface: the fluid's; volume: the fluid itself; slice_x, slice_y, slice_z: a plane across that axis; sphere, torus, gyroid, wave: such a surface about the middle of the box; solids: those of the scene, which are opaque without such a layer; a scalar: where it has the level. With a file surface, volume and slices are of its data"),
-    TEXT("view.pbsr.layers[].file", 0, PBSR_FILE_SIZE, LAYER(file), NULL, "volume data that the layer is of instead of the fluid: its header, a small .yaml beside the raw values, found from the scene's folder"),
-    CHOICE("view.pbsr.layers[].interpolation", L | KEY_INDEX, interpolation_name, LAYER(interpolation), "of a file: between its values; auto: trilinear. Of the fluid's surface with sampler walk: between the values of the grid; auto: the sum over the particles themselves"),
-    CHOICE_OF("view.pbsr.layers[].sampler", L | KEY_INDEX, sampler_names, LAYER(sampler), "how points come onto a surface. walk: by a Brownian walk on it, on the fluid on the sum over its particles; triangles: by marching cubes; auto: walk, and triangles on the fluid"),
-    VEC3("view.pbsr.layers[].position", L, "m", -1e6, 1e6, LAYER(position), "of what is no fluid: moved by that, in the box's frame; no points are made anew"),
-    VEC3("view.pbsr.layers[].axis", L, "", -1000, 1000, LAYER(axis), "of what is no fluid: what it is turned about, through its middle"),
-    NUMBER("view.pbsr.layers[].angle", L, "degrees", -360, 360, LAYER(angle_deg), "of what is no fluid: how far it is turned"),
-    NUMBER("view.pbsr.layers[].level", L, "", -1e30, 1e30, LAYER(level),
-           "of surface: of the field, which is 0.5 where a fluid ends at a plane; of a slice: its place on the axis, m, in the box's frame; of a scalar or a file: in its unit; m: radius of sphere and torus, period of gyroid, height of wave"),
-    NUMBER("view.pbsr.layers[].opacity", L, "", 0, 1, LAYER(opacity),
-           "of what is seen from the front, tilted it is more; of volume: of fluid one spacing deep, or of a file's greatest value as deep as its shortest side"),
-    COLOR("view.pbsr.layers[].color", L, LAYER(color), NULL, "sRGB: [red, green, blue], each 0 to 1; black: what view.color_by says, of a formula where it is in the fluid; of a file: its values; of solids: their own"),
-    INTEGER("view.pbsr.repeat", L, 1, 4096, AT(repeat), "sets of points that a picture is the mean of, once nothing moves: noise falls with its root"),
-    INTEGER("view.pbsr.moving", L, 0, 4096, AT(moving), "the same while something moves in the window or in bench, and what each picture at rest adds; 0: by the budget"),
-    NUMBER("view.pbsr.budget", L | O, "ms", 0, 1e5, AT(budget), "of wall time for the sets of a picture, where moving is 0 and the CPU projects; the GPU has eight sets"),
-    NUMBER("view.pbsr.cell", L | O, "spacings", 0, 10, AT(cell), "side of a cell of the grid on which layers are found"),
-    NUMBER("view.pbsr.curved", L, "", 0, 100, AT(curved), "of the fluid's surfaces by triangles: where one is bent there are up to so many times as many points more, so that drops and rims stand out; density is 1 + curved min(h / R, 1) times what opacity says, with the support radius h and the radius of curvature R"),
-    NUMBER("view.pbsr.edges", L, "", 0, 100, AT(edges), "of surfaces: where one is seen edge on there are so many times as many points more, so that outlines stand out; by theta from the normal density is 1 + edges (1 - cos theta)^4 times what opacity says"),
-    NUMBER("view.pbsr.points", L, "", 1e5, 2e9, AT(points), "of a layer that does not change with the fluid the points that are kept, 24 bytes each: they are dealt to as many of the sets of repeat, at least one, which may have 48 million whatever this says; all solids share those of one layer"),
-    CHOICE_OF("view.pbsr.method", L | KEY_INDEX | KEY_REBUILD, method_names, AT(method), "who strews and projects points, and walks on the surfaces of formulas; auto: the CPU on a software driver, whose memory is the CPU's, else the GPU"),
-    INTEGER("view.pbsr.seed", L, 0, 1000000000, AT(seed), "of the points: the same gives the same picture"),
-    KEYS_END,
-};
-/* clang-format on */
-
-const ViewGrade pbsr_grades[] = {
-    {"view.pbsr.repeat", {"4", "16", "64", "256"}, NULL, NULL, true},
-    {"view.pbsr.cell", {"2", "1.5", "1", "0.75", "0.5"}, NULL, NULL, false},
-    {0},
-};
-
-PbsrDef *pbsr_def(const ViewDef *def)
-{
-    return view_own_settings(def, &view_pbsr);
-}
-
-/* ViewKind.files */
-static int pbsr_files(const ViewDef *def, ViewFile files[VIEW_FILES_MAX])
-{
-    PbsrDef *own = pbsr_def(def);
-    int count = 0;
-    for (int i = 0; i < own->layer_count; i++) {
-        PbsrLayer *layer = &own->layers[i];
-        if (!pbsr_is_of_file(layer))
-            continue;
-        ViewFile *file = &files[count++];
-        *file = (ViewFile){.name = layer->file, .data = &layer->data};
-        snprintf(file->key, sizeof file->key, "pbsr.layers[%d].file", i);
-        if (layer->of > PBSR_SLICE_Z)
-            file->wrong = "of a file a layer is a surface, volume, slice_x, slice_y or slice_z; leave `file` "
-                          "out for what is of the fluid or a formula";
-    }
-    return count;
-}
-
-bool pbsr_is_of_file(const PbsrLayer *layer)
-{
-    return *layer->file && strcmp(layer->file, "none") != 0;
-}
-
-VolumeInterpolation pbsr_interpolation(const PbsrLayer *layer)
-{
-    return layer->interpolation == PBSR_BY_ITSELF
-               ? VOLUME_TRILINEAR
-               : (VolumeInterpolation)(layer->interpolation - PBSR_BY_GRID);
-}
-
-bool pbsr_is_rigid(const PbsrLayer *layer)
-{
-    return pbsr_is_of_file(layer) || (layer->of >= PBSR_SPHERE && layer->of <= PBSR_WAVE);
-}
-
-bool pbsr_has_color(const PbsrLayer *layer)
-{
-    return layer->color[0] > 0 || layer->color[1] > 0 || layer->color[2] > 0;
-}
-
-bool pbsr_takes_fluid_colors(const PbsrLayer *layer)
-{
-    return pbsr_is_rigid(layer) && !pbsr_is_of_file(layer) && !pbsr_has_color(layer);
-}
-
-int pbsr_layers(const PbsrDef *def, PbsrLayer layers[PBSR_LAYERS_MAX])
-{
-    layers[0] = usual_layer;
-    memcpy(layers, def->layers, (size_t)def->layer_count * sizeof *layers);
-    return def->layer_count > 0 ? def->layer_count : 1;
-}
-
-/* The scalars of the layers, SCALAR_BIT. */
-static uint64_t pbsr_scalars(const PbsrDef *def)
-{
-    uint64_t scalars = 0;
-    for (int i = 0; i < def->layer_count; i++)
-        if (def->layers[i].of >= PBSR_SCALARS)
-            scalars |= SCALAR_BIT(def->layers[i].of - PBSR_SCALARS);
-    return scalars;
-}
 
 /* Fixed number: timings from a GPU come too late for a budget. */
 enum { GPU_SETS = 8 };
@@ -306,7 +163,7 @@ static void layers_from(LayersFrom *from, const ParticleBuffers *particles, cons
     from->count = particles->count;
     from->buffer = particles->position.buffer;
     from->offset = particles->position.offset;
-    from->color = frame->by_fluid ? SCALAR_FLUID : view_color_by(frame->def);
+    from->color = frame->colors.by_fluid ? SCALAR_FLUID : view_color_by(frame->def);
     memcpy(from->box_size, particles->box_size, sizeof from->box_size);
     from->spacing = particles->spacing;
     from->support = particles->support_radius;
@@ -320,11 +177,11 @@ static void picture_from(PictureFrom *from, const LayersFrom *layers, const Fram
     memcpy(&from->def, frame->def, sizeof from->def);
     from->camera = frame->camera;
     memcpy(from->box_to_world, frame->box_to_world, sizeof from->box_to_world);
-    memcpy(from->range, frame->range, sizeof from->range);
+    memcpy(from->range, frame->colors.range, sizeof from->range);
     from->target = frame->target->number;
     from->plain = frame->plain;
-    from->split = frame->overlay_depth != 0;
-    from->coarse = frame->overlay_depth_coarse;
+    from->split = frame_over_depth(frame) != 0;
+    from->coarse = frame->over && frame->over->coarse;
 }
 
 static void turn_of(const PbsrLayer *said, float turn[3][3])
@@ -591,7 +448,7 @@ static void find_lacks(PbsrView *view, const Frame *frame)
                                .by_gpu = view->project.program != 0,
                                .sets = view->wanted,
                                .uncounted = view->uncounted,
-                               .overlay_depth_missing = frame->overlay_depth_missing};
+                               .overlay_depth_missing = frame->over && !frame->over->depth};
     view->lacked = layers_describe_missing(&drawn, view->lack, sizeof view->lack);
 }
 
@@ -670,14 +527,14 @@ static float part_color(const WorldDef *world, const PbsrLayer *layer, int k)
 static void show(const ViewDef *def, Frame *frame)
 {
     const PbsrDef *own = pbsr_def(def);
-    frame->part_count = own->layer_count;
-    frame->no_colors = own->layer_count > 0;
+    frame->colors.part_count = own->layer_count;
+    frame->colors.none = own->layer_count > 0;
     frame->no_solids = solid_layers_number(own) >= 0;
     for (int i = 0; i < own->layer_count; i++) {
         const PbsrLayer *layer = &own->layers[i];
-        FramePart *part = &frame->parts[i];
+        FramePart *part = &frame->colors.parts[i];
         part->own = pbsr_has_color(layer) || layer->of == PBSR_SOLIDS;
-        frame->no_colors &= part->own || pbsr_is_of_file(layer); /* the bar is of the fluid's scalar */
+        frame->colors.none &= part->own || pbsr_is_of_file(layer); /* the bar is of the fluid's scalar */
         for (int k = 0; k < 3; k++)
             part->color[k] = part_color(frame->world, layer, k);
         layer_text(layer, part->words);

@@ -3,10 +3,10 @@
 #define RENDER_VIEWS_PBSR_PBSR_H
 
 #include "render/frame/view.h"
-#include "sim/base/memory.h"
-#include "sim/points/fields.h"
+#include "sim/base/base.h"
+#include "sim/points/points.h"
 
-enum { PBSR_LAYERS_MAX = 8, PBSR_FILE_SIZE = 96 };
+enum { PBSR_LAYERS_MAX = 8 };
 
 /* Kinds of layers; from PBSR_SCALARS on, PBSR_SCALARS + a Scalar: the isosurface of a scalar. */
 enum {
@@ -15,11 +15,11 @@ enum {
     PBSR_SLICE_X,
     PBSR_SLICE_Y,
     PBSR_SLICE_Z,
-    PBSR_SPHERE, /* formulas: render/views/pbsr/pbsr_layers.h */
+    PBSR_SPHERE, /* formulas: render/views/pbsr/pbsr_private.h */
     PBSR_TORUS,
     PBSR_GYROID,
     PBSR_WAVE,
-    PBSR_SOLIDS, /* solids of the scene: render/views/pbsr/pbsr_layers.h */
+    PBSR_SOLIDS, /* solids of the scene: render/views/pbsr/pbsr_private.h */
     PBSR_SCALARS
 };
 
@@ -38,7 +38,7 @@ typedef struct MAY_ALIAS PbsrLayer {
     int sampler;               /* a PbsrSampler */
     int interpolation;         /* PBSR_BY_ITSELF, or PBSR_BY_GRID and up */
     const RangedVolume *data;  /* the file's data, set by the scene's reader; NULL: none */
-    char file[PBSR_FILE_SIZE]; /* volume data; "none": the layer is of the fluid, or a formula */
+    const char *file;          /* volume data; "none": the layer is of the fluid, or a formula */
     double position[3];        /* translation in the box's frame, m */
     double axis[3], angle_deg; /* rotation about the layer's middle, before the translation; `axis` has any
                                   length */
@@ -68,7 +68,10 @@ extern const Key pbsr_keys[];    /* ended by a row without a path */
 extern const ViewGrade pbsr_grades[];
 
 /* The settings of a def; not const, like memchr's result. */
-PbsrDef *pbsr_def(const ViewDef *def);
+static inline PbsrDef *pbsr_def(const ViewDef *def)
+{
+    return view_own_settings(def, &view_pbsr);
+}
 
 /* Name of a kind of layer; NULL after the last. */
 const char *pbsr_layer_name(int index);
@@ -90,5 +93,11 @@ bool pbsr_has_color(const PbsrLayer *layer);
 
 /* Fills in the layers; returns their number, at least 1. */
 int pbsr_layers(const PbsrDef *def, PbsrLayer layers[PBSR_LAYERS_MAX]);
+
+/* ViewKind.files of the view. */
+int pbsr_files(const ViewDef *def, ViewFile files[VIEW_FILES_MAX]);
+
+/* The scalars of the layers, SCALAR_BIT. */
+uint64_t pbsr_scalars(const PbsrDef *def);
 
 #endif

@@ -1,7 +1,6 @@
-#include "render/views/pbsr/pbsr_layers.h"
+#include "render/views/pbsr/pbsr_private.h"
 #include "shaders/pbsr/pbsr_bindings.h"
-#include "sim/gpu/gl_context.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -1,7 +1,5 @@
-#include "render/views/pbsr/pbsr_layers.h"
-#include "render/views/pbsr/pbsr_sets.h"
-#include "sim/points/fields.h"
-#include "sim/points/sampling.h"
+#include "render/views/pbsr/pbsr_private.h"
+#include "sim/points/points.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -1,5 +1,5 @@
-#include "render/views/pbsr/pbsr_sets.h"
-#include "sim/base/parallel.h"
+#include "render/views/pbsr/pbsr_private.h"
+#include "sim/base/base.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -11,27 +11,9 @@ static double clamped(double alpha)
     return fmax(0, fmin(alpha, OPACITY_MOST));
 }
 
-double opacity_of_points(double n, double part, double theta)
-{
-    const double tilted = part / cos(theta);
-    if (!(n > 0))
-        return 0;
-    return tilted < 1 ? -expm1(n * log1p(-tilted)) : 1;
-}
-
-double points_of_opacity(double alpha, double part)
-{
-    return log1p(-clamped(alpha)) / log1p(-part);
-}
-
 double point_density_of_opacity(double alpha, double pixel)
 {
     return -log1p(-clamped(alpha)) / pixel;
-}
-
-double points_on_area(double alpha, double pixel, double area, int sets)
-{
-    return sets * area * point_density_of_opacity(alpha, pixel);
 }
 
 double pixel_area(const float tangent[2], int width, int height, double depth)

@@ -1,5 +1,5 @@
 #include "render/frame/passes.h"
-#include "render/views/pbsr/pbsr_layers.h"
+#include "render/views/pbsr/pbsr_private.h"
 
 #include <string.h>
 

@@ -3,12 +3,11 @@
 #include "render/frame/frame.h"
 #include "render/frame/passes.h"
 #include "render/particles/particles.h"
-#include "render/particles/plane.h"
 #include "render/views/slice/slice_private.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/slice/slice_bindings.h"
 #include "sim/base/key_rows.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -47,11 +46,6 @@ const ViewGrade slice_grades[] = {
     {"view.slice.samples", {"64", "128", "256", "512", "1024"}, NULL, NULL, false},
     {0},
 };
-
-SliceDef *slice_def(const ViewDef *def)
-{
-    return view_own_settings(def, &view_slice);
-}
 
 typedef struct SliceView {
     PlaneSum sum, veil; /* sums of the scalar shown; sums of the opacity's scalar, if different */
@@ -246,7 +240,7 @@ static PlaneSum *sum_veil(SliceView *view, const PlaneJob *job, const ParticleBu
 
 static void set_veil(const SliceView *view, const PlaneSum *veils, const Frame *frame)
 {
-    particle_curve_set(&frame->def->opacity, frame->opacity_range, 1, veils != NULL);
+    particle_curve_set(&frame->def->opacity, frame->curves.opacity, 1, veils != NULL);
     glBindTextureUnit(VEIL_UNIT, veils ? veils->sums : view->sum.sums);
     if (veils == &view->veil)
         set_filter(veils->sums, slice_def(frame->def)->show == SLICE_FLAT ? GL_NEAREST : GL_LINEAR);
@@ -292,7 +286,7 @@ static void find_shown(SliceView *view, const ParticleBuffers *particles, const 
 {
     const SliceDef *def = slice_def(frame->def);
     Plane plane;
-    double most = -(double)frame->particle_radius;
+    double most = -(double)frame->radii.drawn;
     view->shown = *particles;
     if (def->particles != SLICE_BEHIND)
         return;
@@ -378,8 +372,8 @@ static void remember(SliceView *view, const PlaneJob *job, const ParticleBuffers
     probe->flat = def->show == SLICE_FLAT;
     probe->shown = shown;
     probe->cut = def->cut;
-    probe->name = frame->shown;
-    probe->unit = frame->shown_unit;
+    probe->name = frame->colors.name;
+    probe->unit = frame->colors.unit;
     flat_part(job, frame, probe->part);
 }
 
@@ -436,14 +430,15 @@ static void show(const ViewDef *def, Frame *frame)
 {
     const SliceDef *own = slice_def(def);
     frame->flat = own->show == SLICE_FLAT;
-    if (!frame->by_fluid)
+    if (!frame->colors.by_fluid)
         return;
-    frame->by_fluid = own->particles != SLICE_ALONE && !frame->flat; /* balls have the fluids' colours */
-    frame->shown = "field";
-    frame->shown_unit = "";
-    frame->range[0] = 0;
-    frame->range[1] = 1.25;
-    frame->beyond[0] = frame->beyond[1] = false;
+    frame->colors.by_fluid =
+        own->particles != SLICE_ALONE && !frame->flat; /* balls have the fluids' colours */
+    frame->colors.name = "field";
+    frame->colors.unit = "";
+    frame->colors.range[0] = 0;
+    frame->colors.range[1] = 1.25;
+    frame->colors.beyond[0] = frame->colors.beyond[1] = false;
 }
 
 const ViewKind view_slice = {

@@ -3,7 +3,7 @@
 #define RENDER_VIEWS_SLICE_SLICE_H
 
 #include "render/frame/view.h"
-#include "sim/base/memory.h"
+#include "sim/base/base.h"
 
 typedef enum SliceShow {
     SLICE_PLANE, /* at its position in space */
@@ -33,7 +33,10 @@ typedef struct MAY_ALIAS SliceDef {
 extern const ViewKind view_slice;
 
 /* The settings of a def; not const, like memchr's result. */
-SliceDef *slice_def(const ViewDef *def);
+static inline SliceDef *slice_def(const ViewDef *def)
+{
+    return view_own_settings(def, &view_slice);
+}
 
 extern const SliceDef slice_usual; /* the defaults */
 extern const Key slice_keys[];     /* ended by a row without a path */

@@ -5,7 +5,7 @@
 #include "render/views/slice/slice.h"
 
 #include "render/frame/view.h"
-#include "render/particles/plane.h"
+#include "render/particles/particles.h"
 
 /* The plane of the view slice: position, handles for the mouse, and keys. Pure. */
 

@@ -3,12 +3,10 @@
 #include "render/views/spheres/spheres.h"
 
 #include "render/frame/frame.h"
-#include "render/frame/passes.h"
 #include "render/particles/particles.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/spheres/spheres_bindings.h"
-#include "sim/gpu/program.h"
-#include "sim/gpu/timer.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -125,8 +123,8 @@ static void spheres_cast(void *state, const ParticleBuffers *particles, const Fr
    than the limit. */
 static bool points_will_do(const Spheres *spheres, const Frame *frame)
 {
-    const float *tangent = frame->camera.tangent, r = frame->particle_reach, nearest = frame->nearest + r;
-    if (!frame->all_in_view || nearest <= 2 * r)
+    const float *tangent = frame->camera.tangent, r = frame->radii.reach, nearest = frame->extent.nearest + r;
+    if (!frame->extent.all_in_view || nearest <= 2 * r)
         return false;
     float slant = sqrtf(1 + camera_max_slant_squared(&frame->camera));
     float half = r * slant / (nearest - r) / tangent[1] * (float)frame->height / 2;

@@ -5,176 +5,12 @@
 #include "render/views/splat/splat_private.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/splat/splat_bindings.h"
-#include "sim/base/key_rows.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-const char *const splat_weights_names[] = {
-    [SPLAT_NO_WEIGHTS] = "none", [SPLAT_W1] = "w1", [SPLAT_W1W2] = "w1w2", NULL};
-const char *const splat_shape_names[] = {[SPLAT_PERSPECTIVE] = "perspective",
-                                         [SPLAT_PAPER] = "paper",
-                                         [SPLAT_ELLIPSOID] = "ellipsoid",
-                                         [SPLAT_SHAPE_AUTO] = "auto",
-                                         NULL};
-const char *const splat_sprite_names[] = {
-    [SPLAT_AUTO] = "auto", [SPLAT_QUAD] = "quad", [SPLAT_POINT] = "point", NULL};
-const char *const splat_show_names[] = {[SPLAT_SHADED] = "shaded",
-                                        [SPLAT_DEPTH] = "depth",
-                                        [SPLAT_NORMALS] = "normals",
-                                        [SPLAT_WEIGHT] = "weight",
-                                        [SPLAT_THICKNESS] = "thickness",
-                                        [SPLAT_CULLED] = "culled",
-                                        NULL};
-const char *const splat_shading_names[] = {
-    [SPLAT_PHONG] = "phong", [SPLAT_WATER] = "water", [SPLAT_JELLY] = "jelly", NULL};
-
-const char *const splat_filter_names[] = {
-    [SPLAT_NO_FILTER] = "none", [SPLAT_NARROW_RANGE] = "narrow_range", [SPLAT_FILTER_AUTO] = "auto", NULL};
-
-const SplatDef splat_usual = {.eps = 1.5,
-                              .weights = SPLAT_W1W2,
-                              .shape = SPLAT_SHAPE_AUTO,
-                              .cull = true,
-                              .drops = true,
-                              .ior = 1.333,
-                              .filter = SPLAT_FILTER_AUTO,
-                              .filter_size = 4,
-                              .filter_range = 3,
-                              .filter_iterations = 2,
-                              .antialias = true};
-
-#define AT(field) offsetof(SplatDef, field)
-
-/* clang-format off */
-const Key splat_keys[] = {
-    MAPPING("view.splat", "of the view splat: the fluid as one surface, after Adams, Lenaerts and Dutré 2006"),
-    NUMBER("view.splat.level", L, "", 0, 1, AT(level),
-           "of the field that is the surface (0.1 and so on); 0: the spheres; above, radius 0 is the solver's support radius, "
-           "and eps, weights, drops and ellipsoids have no part in it"),
-    NUMBER("view.splat.eps", L | O, "radii", 0, 10, AT(eps), "how far below the surface spheres still blend"),
-    CHOICE_OF("view.splat.weights", L | KEY_INDEX | KEY_REBUILD, splat_weights_names, AT(weights),
-           "w1: a sphere's share falls to its rim; w1w2: and with its depth; none: each pixel is its foremost sphere's"),
-    CHOICE_OF("view.splat.shape", L | KEY_INDEX | KEY_REBUILD, splat_shape_names, AT(shape),
-           "perspective: exact spheres; paper: circles on the screen; ellipsoid: stretched as their neighbours lie; "
-           "auto: ellipsoid, but perspective with a level, and opaque with weights none or w1"),
-    CHOICE_OF("view.splat.sprite", L | KEY_INDEX | KEY_REBUILD, splat_sprite_names, AT(sprite),
-           "quad; point: a GL point, which drivers cut at some size; auto: points on a software driver while they are small, else quads"),
-    CHOICE_OF("view.splat.show", L | KEY_INDEX | KEY_REBUILD, splat_show_names, AT(show), "a stage of the way to the picture"),
-    CHOICE_OF("view.splat.shading", L | KEY_INDEX | KEY_REBUILD, splat_shading_names, AT(shading),
-           "phong: opaque; water: clear, bends what is behind and mirrors the sky; jelly: both"),
-    NUMBER("view.splat.ior", L, "", 1, 3, AT(ior), "index of refraction, of water and jelly"),
-    NUMBER("view.splat.attenuation", L, "m", 0, 1e5, AT(attenuation),
-           "through which white light becomes the fluid's colour; 0: two fifths of the box's longest side, in 2D a spacing"),
-    BOOLEAN("view.splat.cull", L | KEY_REBUILD, AT(cull), "leave out hidden spheres before they are drawn"),
-    BOOLEAN("view.splat.drops", L | KEY_REBUILD, AT(drops), "a particle with few neighbours shrinks to a drop of its own volume"),
-    CHOICE_OF("view.splat.filter", L | KEY_INDEX | KEY_REBUILD, splat_filter_names, AT(filter),
-           "narrow_range: smooth the depth on the screen and take the normals from it, after Truong and Yuksel 2018; "
-           "auto: narrow_range where auto makes the shape ellipsoid"),
-    NUMBER("view.splat.filter_size", L | O, "radii", 0, 100, AT(filter_size), "half the width of the filter"),
-    NUMBER("view.splat.filter_range", L | O, "radii", 0, 100, AT(filter_range),
-           "the filter takes what lies farther in front or behind for another surface"),
-    INTEGER("view.splat.filter_iterations", L, 1, 20, AT(filter_iterations), "how often the filter runs"),
-    BOOLEAN("view.splat.antialias", L | KEY_REBUILD, AT(antialias), "smooth outlines, and spheres smaller than pixels"),
-    KEYS_END,
-};
-/* clang-format on */
-
-const ViewGrade splat_grades[] = {
-    {"view.splat.shape", {"paper", "auto"}, NULL, NULL, false},
-    {"view.splat.sprite", {"point", "quad"}, NULL, NULL, false},
-    {"view.splat.cull", {"false", "true"}, NULL, NULL, true},
-    {"view.splat.filter_iterations", {"1", "2", "4"}, "view.splat.filter", "narrow_range", false},
-    {"view.splat.antialias", {"false", "true"}, NULL, NULL, false},
-    {0},
-};
-
-SplatDef *splat_def(const ViewDef *def)
-{
-    return view_own_settings(def, &view_splat);
-}
-
-/* True if the picture is one surface: pictures of single spheres, or of a level, stay unchanged. */
-static bool smooth(const SplatDef *def)
-{
-    return !(def->level > 0) && (def->shading != SPLAT_PHONG || def->weights == SPLAT_W1W2);
-}
-
-SplatShape splat_shape(const SplatDef *def)
-{
-    return def->shape != SPLAT_SHAPE_AUTO ? def->shape : smooth(def) ? SPLAT_ELLIPSOID : SPLAT_PERSPECTIVE;
-}
-
-SplatFilter splat_filter(const SplatDef *def)
-{
-    return def->filter != SPLAT_FILTER_AUTO ? def->filter
-           : smooth(def)                    ? SPLAT_NARROW_RANGE
-                                            : SPLAT_NO_FILTER;
-}
-
-SplatDef splat_def_resolved(const ViewDef *def)
-{
-    SplatDef made = *splat_def(def);
-    made.shape = splat_shape(&made);
-    made.filter = splat_filter(&made);
-    made.sized = def->size.by != 0 && !(made.level > 0);
-    return made;
-}
-
-bool splat_culls(const SplatDef *def)
-{
-    return def->cull || def->show == SPLAT_CULLED;
-}
-
-/* True if the view draws a level; false if the picture shows culled spheres. */
-static bool splat_level_wanted(const SplatDef *def)
-{
-    return def->level > 0 && def->show != SPLAT_CULLED;
-}
-
-bool ellipsoids_stretched(const SplatDef *def)
-{
-    return splat_shape(def) == SPLAT_ELLIPSOID && !(def->level > 0);
-}
-
-bool ellipsoids_crowded(const SplatDef *def)
-{
-    return ellipsoids_stretched(def) || (def->drops && !(def->level > 0));
-}
-
-bool ellipsoids_wanted(const SplatDef *def)
-{
-    return ellipsoids_crowded(def) || def->sized;
-}
-
-static bool splat_shade_wants_thickness(const SplatDef *def)
-{
-    return def->show == SPLAT_THICKNESS || splat_is_clear(def);
-}
-
-bool splat_is_clear(const SplatDef *def)
-{
-    return def->show == SPLAT_SHADED && def->shading != SPLAT_PHONG;
-}
-
-bool splat_has_spray(const SplatDef *def)
-{
-    return splat_is_clear(def) && def->drops && ellipsoids_stretched(def);
-}
-
-/* True if outlines are smoothed: not in pictures of stages before shading. */
-static bool silhouette_wanted(const SplatDef *def)
-{
-    return def->antialias && (def->show == SPLAT_SHADED || def->show == SPLAT_CULLED);
-}
-
-bool silhouette_by_discs(const SplatDef *def)
-{
-    return silhouette_wanted(def) && !splat_level_wanted(def);
-}
 
 /* ViewKind.same. */
 static bool splat_is_compatible(const Subject *a, const Subject *b)
@@ -335,7 +171,7 @@ static void draw_sprites(SplatView *splat, SplatSprite sprite, GLuint program,
 
 static float eps_of(const Frame *frame)
 {
-    return (float)splat_def(frame->def)->eps * frame->particle_radius;
+    return (float)splat_def(frame->def)->eps * frame->radii.drawn;
 }
 
 /* Depth range behind the nearest sphere in which spheres matter, m. */
@@ -406,7 +242,7 @@ static void blend_attributes(SplatView *splat, SplatSprite sprite, const Particl
 /* Fluid farther behind by this distance, m, is a separate surface. Levels are smooth and have no eps. */
 static float apart(const SplatView *splat, const Frame *frame)
 {
-    return splat_level_wanted(&splat->def) ? frame->particle_radius / 2 : eps_of(frame);
+    return splat_level_wanted(&splat->def) ? frame->radii.drawn / 2 : eps_of(frame);
 }
 
 static void draw_spray(SplatView *splat, SplatSprayPart part, SplatSprite sprite,
@@ -428,7 +264,7 @@ static void splat_draw(void *state, const ParticleBuffers *particles, const Fram
 {
     SplatView *splat = state;
     const SplatSprite sprite =
-        splat_sprites_choose(&splat->sprites, frame, frame->particle_reach, (float)frame->height);
+        splat_sprites_choose(&splat->sprites, frame, frame->radii.reach, (float)frame->height);
     splat_maps_update(&splat->maps, frame->target, silhouette_by_discs(&splat->def));
     ellipsoids_bind(&splat->ellipsoids);
     GL_STAGE(frame->timer, STAGE_VISIBILITY)
@@ -508,8 +344,8 @@ static bool splat_own_colors(const ViewDef *def)
 
 static void splat_show_in(const ViewDef *def, Frame *frame)
 {
-    frame->clear = splat_is_clear(splat_def(def)) ? CLEAR_FLUID_LIGHT : 0;
-    frame->refraction = (float)splat_def(def)->ior;
+    frame->fluid.clear = splat_is_clear(splat_def(def)) ? CLEAR_FLUID_LIGHT : 0;
+    frame->fluid.refraction = (float)splat_def(def)->ior;
 }
 
 /* The filter takes more than half of a picture's time. */

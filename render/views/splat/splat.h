@@ -3,7 +3,7 @@
 #define RENDER_VIEWS_SPLAT_SPLAT_H
 
 #include "render/frame/view.h"
-#include "sim/base/memory.h"
+#include "sim/base/base.h"
 
 typedef enum SplatWeights { SPLAT_NO_WEIGHTS, SPLAT_W1, SPLAT_W1W2 } SplatWeights;
 typedef enum SplatShape { SPLAT_PERSPECTIVE, SPLAT_PAPER, SPLAT_ELLIPSOID, SPLAT_SHAPE_AUTO } SplatShape;
@@ -44,7 +44,10 @@ typedef struct MAY_ALIAS SplatDef {
 extern const ViewKind view_splat;
 
 /* The splat settings of a def; not const, like memchr's result. */
-SplatDef *splat_def(const ViewDef *def);
+static inline SplatDef *splat_def(const ViewDef *def)
+{
+    return view_own_settings(def, &view_splat);
+}
 
 extern const SplatDef splat_usual; /* the defaults */
 extern const Key splat_keys[];     /* ended by a row without a path */
@@ -84,5 +87,14 @@ bool splat_has_spray(const SplatDef *def);
 /* True if outlines are smoothed by discs. Then pass 2 stores the discs, and the fraction of a pixel that
    spheres smaller than pixels cover (DISCS in shaders). */
 bool silhouette_by_discs(const SplatDef *def);
+
+/* True if outlines are smoothed: not in pictures of stages before shading. */
+bool silhouette_wanted(const SplatDef *def);
+
+/* True if the view draws a level; false if the picture shows culled spheres. */
+bool splat_level_wanted(const SplatDef *def);
+
+/* True if the thickness of the fluid is part of the picture. */
+bool splat_shade_wants_thickness(const SplatDef *def);
 
 #endif

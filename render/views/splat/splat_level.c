@@ -1,18 +1,18 @@
 #include "render/views/splat/splat_private.h"
 #include "shaders/splat/splat_bindings.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
 
-/* Distance between samples in radii, in the first round and in later rounds: the pieces have errors of
+/* Distance between samples in radii, in the first round and in later rounds. The pieces have errors of
    1e-3 of the field, so that only tiny chords of the level are missed. SLACK: the largest error of a
    root's first guess. */
 static const float APART = 0.375F, APART_BEHIND = 0.5F, SLACK = 0.1F;
 
 float splat_level_range(const Frame *frame)
 {
-    return 4 * APART * frame->particle_radius;
+    return 4 * APART * frame->radii.drawn;
 }
 
 double splat_level_gain(double radius, double spacing, bool flat)
@@ -23,7 +23,7 @@ double splat_level_gain(double radius, double spacing, bool flat)
 
 float splat_level_gain_of(const Frame *frame, const ParticleBuffers *particles)
 {
-    return (float)splat_level_gain(frame->particle_radius, particles->spacing, frame->slab > 0);
+    return (float)splat_level_gain(frame->radii.drawn, particles->spacing, frame->slab > 0);
 }
 
 double splat_level_lone_distance(double level, double gain, double radius)
@@ -194,7 +194,7 @@ static void ask(const LevelSearch *search, GLuint query)
 static void look(const LevelSearch *search, float apart)
 {
     const SplatLevel *level = search->level;
-    glProgramUniform1f(level->open, SEARCH_RANGE_AT, 4 * apart * search->frame->particle_radius);
+    glProgramUniform1f(level->open, SEARCH_RANGE_AT, 4 * apart * search->frame->radii.drawn);
     fill(search, level->open, level->sum_framebuffer);
     glProgramUniform1f(level->sum[search->sprite], APART_AT, apart);
     splat(search, level->sum[search->sprite], level->sum_framebuffer, GL_FUNC_ADD);
@@ -223,7 +223,7 @@ static void look_again(const LevelSearch *search, int round)
 static void refine(const LevelSearch *search)
 {
     const SplatLevel *level = search->level;
-    glProgramUniform1f(level->open_found, SEARCH_RANGE_AT, SLACK * search->frame->particle_radius);
+    glProgramUniform1f(level->open_found, SEARCH_RANGE_AT, SLACK * search->frame->radii.drawn);
     fill(search, level->open_found, level->single_framebuffer);
     list_to_limit(search);
     splat(search, level->single[search->sprite], level->single_framebuffer, GL_FUNC_ADD);

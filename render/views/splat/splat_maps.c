@@ -2,8 +2,7 @@
 
 #include "render/views/splat/splat_private.h"
 #include "shaders/splat/splat_bindings.h"
-#include "sim/gpu/program.h"
-#include "sim/gpu/timer.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -207,7 +206,7 @@ static unsigned smooth_along(const NarrowRange *filter, GLuint program, unsigned
 static void set_filter_uniforms(const NarrowRange *filter, const Frame *frame)
 {
     const SplatDef *def = splat_def(frame->def);
-    const float radius = frame->particle_radius, range = (float)def->filter_range * radius;
+    const float radius = frame->radii.drawn, range = (float)def->filter_range * radius;
     const float pixels = 0.5F * (float)frame->height / frame->camera.tangent[1]; /* pixels of 1 m at a
                                                                                     distance of 1 m */
     const float reach = (float)def->filter_size * radius * pixels;
@@ -355,7 +354,7 @@ static float pixel_at(const Frame *frame, float depth)
 void splat_thickness_draw(SplatThickness *thickness, SplatSprites *sprites, const ParticleBuffers *particles,
                           const Frame *frame)
 {
-    const float far_pixel = pixel_at(frame, fmaxf(frame->farthest, frame->camera.near_plane));
+    const float far_pixel = pixel_at(frame, fmaxf(frame->extent.farthest, frame->camera.near_plane));
     /* If the support radius is below a pixel, a wider kernel keeps the total right. */
     const float support = fmaxf((float)particles->support_radius, 1.5F * far_pixel);
     const float fitting = support / (TEXELS * far_pixel);

@@ -87,8 +87,8 @@ typedef struct SplatCull {
     unsigned occlude, test, sum, list; /* programs */
     unsigned limit;                    /* program, made by splat_cull_create_limit */
     unsigned map, rows;                /* buffer: a depth per cell; texture: `map`, four per fetch */
-    unsigned marks;          /* buffer of FluidTiles: tiles that listed particles touch are marked */
-    unsigned kept, commands; /* see cull_test.comp, cull_sum.comp */
+    unsigned marks;             /* buffer of FluidTiles: tiles that listed particles touch are marked */
+    unsigned visible, commands; /* see cull_test.comp, cull_sum.comp */
     unsigned lists[CULL_LISTS];
     size_t cells, capacity; /* capacity of `map` in cells; capacity of `lists` in particles */
 } SplatCull;
@@ -126,6 +126,8 @@ typedef struct Ellipsoids {
 
 /* Defines for shaders that include common/ball.glsl; at most 60 characters. */
 const char *ellipsoids_defines(const SplatDef *def);
+#define ELLIPSOIDS_LEAST                                                                                     \
+    "#define LEAST 1e-3\n" /* fraction of the largest: a sphere of size 0 has no normal */
 
 /* Factor of the view's radius for sizes by a scalar: the result is the largest radius, an upper bound of
    all. 1 without sizes. */
@@ -263,7 +265,7 @@ SplatMaps splat_panes_draw(SplatPanes *panes, const SplatMaps *maps, const Fluid
    each side of a pass. The kernel has one size in the world. Passes run along x and y, then a small pass
    in two dimensions.
 
-   Differences from the paper. Samples too far behind are left out, as are samples too near; the paper
+   Differences from the paper. Samples too far behind are left out, as are samples too near. The paper
    counts far samples as one radius behind, which lifts an inclined level surface towards its far end.
    Means and ranges are of 1 / depth, which is linear on the screen for a plane, so that planes stay
    planes. Weights are (1 - q^2)^3, which end at 0, instead of a cut Gaussian. */
@@ -343,7 +345,7 @@ void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, const SplatThick
    upside down, with a rim that reflects by Fresnel's formula. */
 
 typedef struct SplatSpray {
-    unsigned find;                     /* program */
+    Selection find;
     unsigned list, command;            /* buffers: numbers of the drops; drawing command */
     size_t capacity;                   /* capacity of the list */
     unsigned program[SPLAT_POINT + 1]; /* by sprite */
@@ -412,7 +414,7 @@ const Ellipsoids *splat_ellipsoids(const void *state);
 unsigned splat_thickness_map(const void *state); /* see SplatThickness; 0 if the shading
                                                     needs no thickness */
 
-/* The maps that shaded the last picture: with a filter, the filtered depth and normals. */
+/* For tests: the maps that shaded the last picture: with a filter, the filtered depth and normals. */
 const SplatMaps *splat_shown_maps(const void *state);
 
 #endif

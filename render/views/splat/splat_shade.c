@@ -3,7 +3,7 @@
 #include "render/views/splat/splat_private.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/splat/splat_bindings.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -60,13 +60,13 @@ static void look_through(SplatShade *shade, unsigned program, const Frame *frame
     background_copy_make(&shade->background, &shade->edges, frame);
     glProgramUniform1f(program, REFRACTION_INDEX_AT, (float)def->ior);
     glProgramUniform1f(program, ATTENUATION_AT,
-                       def->attenuation > 0 ? (float)def->attenuation : frame->attenuation);
+                       def->attenuation > 0 ? (float)def->attenuation : frame->fluid.attenuation);
 }
 
 /* Blends partly covered pixels with the background. */
 static void begin_mixing(const Frame *frame)
 {
-    glUniform1f(COVER_STEP_AT, (float)splat_def(frame->def)->eps * frame->particle_radius);
+    glUniform1f(COVER_STEP_AT, (float)splat_def(frame->def)->eps * frame->radii.drawn);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
@@ -103,8 +103,8 @@ void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, const SplatThick
     if (shade->settle)
         settle(shade, tiles);
     glUseProgram(program);
-    glUniform1f(NEAREST_DEPTH_AT, fmaxf(frame->nearest, frame->camera.near_plane));
-    glUniform1f(FARTHEST_DEPTH_AT, frame->farthest);
+    glUniform1f(NEAREST_DEPTH_AT, fmaxf(frame->extent.nearest, frame->camera.near_plane));
+    glUniform1f(FARTHEST_DEPTH_AT, frame->extent.farthest);
     if (mixing)
         begin_mixing(frame);
     fluid_tiles_draw(tiles);

@@ -2,24 +2,11 @@
 #include "render/views/splat/splat_private.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/splat/splat_bindings.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
 #include <stdio.h>
-
-#define LEAST "#define LEAST 1e-3\n" /* fraction of the largest: a sphere of size 0 has no normal */
-
-const char *ellipsoids_defines(const SplatDef *def)
-{
-    if (ellipsoids_stretched(def))
-        return splat_has_spray(def) ? LEAST "#define ELLIPSOID 1\n#define APART 1\n"
-                                    : LEAST "#define ELLIPSOID 1\n";
-    const bool paper = splat_shape(def) == SPLAT_PAPER;
-    if (ellipsoids_wanted(def))
-        return paper ? "#define PAPER 1\n#define DROPS 1\n" : "#define DROPS 1\n";
-    return paper ? "#define PAPER 1\n" : "";
-}
 
 bool ellipsoids_create(Ellipsoids *ellipsoids, const SplatDef *def, Error *error)
 {
@@ -30,8 +17,8 @@ bool ellipsoids_create(Ellipsoids *ellipsoids, const SplatDef *def, Error *error
     if (def->sized) {
         ellipsoids->scale = program_create("splat sizes", sizes,
                                            stretched                 ? "#define ELLIPSOID 1\n"
-                                           : ellipsoids_crowded(def) ? LEAST "#define SCALED 1\n"
-                                                                     : LEAST,
+                                           : ellipsoids_crowded(def) ? ELLIPSOIDS_LEAST "#define SCALED 1\n"
+                                                                     : ELLIPSOIDS_LEAST,
                                            error);
         if (!ellipsoids->scale)
             return false;
@@ -87,7 +74,7 @@ static void make_crowded(Ellipsoids *ellipsoids, const ParticleBuffers *particle
                          double unit)
 {
     const bool flat = frame->slab > 0;
-    const float radius = frame->particle_radius;
+    const float radius = frame->radii.drawn;
     neighbourhood_build(&ellipsoids->neighbourhood, particles);
     const float drop =
         ellipsoids->def.drops ? fminf((float)(unit * drop_radius(particles, flat)), radius) : radius;
@@ -110,7 +97,7 @@ void ellipsoids_make(Ellipsoids *ellipsoids, const ParticleBuffers *particles, c
     if (!ellipsoids->scale || particles->count == 0)
         return;
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHAPES_STORAGE, ellipsoids->shapes);
-    particle_curve_run(ellipsoids->scale, &frame->def->size, frame->size_range, unit, particles);
+    particle_curve_run(ellipsoids->scale, &frame->def->size, frame->curves.size, unit, particles);
 }
 
 void ellipsoids_bind(const Ellipsoids *ellipsoids)
@@ -133,18 +120,30 @@ bool splat_spray_create(SplatSpray *spray, const SplatSprites *sprites, const Su
         if (!spray->program[sprite])
             return false;
     }
-    static const char *const list[] = {"splat/clear/spray_list.comp", NULL};
     work_buffer_remake(&spray->command, 8 * sizeof(GLuint), "spray command");
-    spray->find = program_create("spray list", list, NULL, error);
-    return spray->find != 0;
+    return selection_create(&spray->find, "spray list", "splat/clear/spray_list.comp", error);
 }
 
 void splat_spray_destroy(SplatSpray *spray)
 {
-    glDeleteProgram(spray->find);
+    selection_destroy(&spray->find);
     glDeleteBuffers(2, (GLuint[]){spray->list, spray->command});
     for (int sprite = 0; sprite <= SPLAT_POINT; sprite++)
         glDeleteProgram(spray->program[sprite]);
+}
+
+typedef struct SprayInput {
+    const SplatSpray *spray;
+    GLuint vertices; /* per particle */
+} SprayInput;
+
+static void set_list(unsigned program, const void *user)
+{
+    const SprayInput *in = user;
+    (void)program;
+    glUniform1ui(VERTICES_AT, in->vertices);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, NEAREST_LIST_STORAGE, in->spray->list);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_COMMANDS_STORAGE, in->spray->command);
 }
 
 void splat_spray_find(SplatSpray *spray, SplatSprite sprite, const ParticleBuffers *particles)
@@ -155,13 +154,8 @@ void splat_spray_find(SplatSpray *spray, SplatSprite sprite, const ParticleBuffe
     }
     if (particles->count == 0)
         return;
-    glUseProgram(spray->find);
-    glUniform1ui(CULL_COUNT_AT, (GLuint)particles->count);
-    glUniform1ui(VERTICES_AT, sprite == SPLAT_POINT ? 1 : 6);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, NEAREST_LIST_STORAGE, spray->list);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_COMMANDS_STORAGE, spray->command);
-    work_run(1);
-    glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
+    selection_run(&spray->find, particles->count, set_list,
+                  &(SprayInput){spray, sprite == SPLAT_POINT ? 1 : 6});
 }
 
 void splat_spray_draw(const SplatSpray *spray, SplatSprayPart part, unsigned nearest,
@@ -173,7 +167,7 @@ void splat_spray_draw(const SplatSpray *spray, SplatSprayPart part, unsigned nea
     background_copy_make(background, edges, frame);
     glProgramUniform1f(program, REFRACTION_INDEX_AT, (float)def->ior);
     glProgramUniform1f(program, ATTENUATION_AT,
-                       def->attenuation > 0 ? (float)def->attenuation : frame->attenuation);
+                       def->attenuation > 0 ? (float)def->attenuation : frame->fluid.attenuation);
     glProgramUniform1ui(program, SPRAY_BEHIND_AT, part == SPRAY_BEHIND);
     glBindTextureUnit(NEAREST_UNIT, nearest);
     splat_sprites_begin(frame->target->framebuffer, frame, GL_FUNC_ADD);

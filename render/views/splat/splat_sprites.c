@@ -2,7 +2,7 @@
 #include "render/views/splat/splat_private.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/splat/splat_bindings.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -105,7 +105,7 @@ static void splat_cull_destroy(SplatCull *cull)
     glDeleteProgram(cull->limit);
     glDeleteTextures(1, &cull->rows);
     glDeleteBuffers(CULL_LISTS, cull->lists);
-    glDeleteBuffers(3, (GLuint[]){cull->map, cull->kept, cull->commands});
+    glDeleteBuffers(3, (GLuint[]){cull->map, cull->visible, cull->commands});
     *cull = (SplatCull){0};
 }
 
@@ -131,7 +131,7 @@ static void reserve_lists(SplatCull *cull, size_t count, size_t cells)
     }
     if (count > cull->capacity) {
         cull->capacity = work_capacity(cull->capacity, count);
-        work_buffer_remake(&cull->kept, chunks_of(cull->capacity) * 4 * sizeof(GLuint), "cull kept");
+        work_buffer_remake(&cull->visible, chunks_of(cull->capacity) * 4 * sizeof(GLuint), "cull kept");
         for (int i = 0; i < CULL_LISTS; i++)
             work_buffer_remake(&cull->lists[i], cull->capacity * sizeof(GLuint), "cull list");
     }
@@ -206,7 +206,7 @@ static void test(SplatCull *cull, const CullGrid *grid, const ParticleBuffers *p
     glUniform1ui(CULL_COUNT_AT, (GLuint)particles->count);
     glUniform1f(EPS_AT, eps);
     glUniform1ui(INVERT_AT, hidden);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_KEPT_STORAGE, cull->kept);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_KEPT_STORAGE, cull->visible);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, TILE_MARKS_STORAGE, cull->marks);
     work_run(chunks_of(particles->count));
     make_lists(cull, particles->count, vertices);
@@ -222,13 +222,13 @@ static void make_for_grid(SplatCull *cull, const CullGrid *grid, const ParticleB
 /* Diameter in pixels of a sphere at `distance` in the middle of the picture. */
 static double pixels_across(const Frame *frame, double distance)
 {
-    return frame->particle_radius / fmax(distance, frame->camera.near_plane) / frame->camera.tangent[1] *
+    return frame->radii.drawn / fmax(distance, frame->camera.near_plane) / frame->camera.tangent[1] *
            frame->height;
 }
 
 static CullGrid eye_grid(const Frame *frame)
 {
-    return make_grid(frame->width, frame->height, pixels_across(frame, frame->farthest) * sqrt(0.5));
+    return make_grid(frame->width, frame->height, pixels_across(frame, frame->extent.farthest) * sqrt(0.5));
 }
 
 void splat_cull_for_eye(SplatCull *cull, const ParticleBuffers *particles, const Frame *frame, float eps,
@@ -292,9 +292,9 @@ SplatSprite splat_sprites_choose(const SplatSprites *sprites, const Frame *frame
     const float *tangent = frame->camera.tangent, slant = 1 + camera_max_slant_squared(&frame->camera);
     if (sprites->def.sprite != SPLAT_AUTO)
         return sprites->def.sprite;
-    if (sprites->point_sprite_limit <= 0 || frame->nearest <= radius)
+    if (sprites->point_sprite_limit <= 0 || frame->extent.nearest <= radius)
         return SPLAT_QUAD;
-    const float across = radius / frame->nearest * slant / tangent[1] * height + 1;
+    const float across = radius / frame->extent.nearest * slant / tangent[1] * height + 1;
     return across < sprites->point_sprite_limit ? SPLAT_POINT : SPLAT_QUAD;
 }
 
@@ -308,7 +308,7 @@ bool splat_sprites_small(const Frame *frame)
     const ScalarCurve *size = &frame->def->size;
     const double most = fmax(control_points_most(&size->curve), 1e-30);
     const double least = size->by != 0 ? control_points_least(&size->curve) / most : 1;
-    return least * drop * frame->particle_radius * pixels < 0.8F * frame->farthest;
+    return least * drop * frame->radii.drawn * pixels < 0.8F * frame->extent.farthest;
 }
 
 unsigned splat_sprites_program(const SplatSprites *sprites, SplatSprite sprite, bool listed,

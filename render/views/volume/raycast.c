@@ -5,13 +5,23 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/volume/raycast_block.h"
 #include "shaders/volume/volume_bindings.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+VolumeOpacity volume_opacity(const ViewDef *def)
+{
+    const VolumeDef *own = volume_def(def);
+    if (def->opacity.by == 0 || own->raycast.look != RAYCAST_TRANSLUCENT || own->show != VOLUME_SHADED)
+        return VOLUME_EVEN;
+    return scalar_of_curve(&def->opacity) == view_color_by(def) && view_color_by(def) != SCALAR_FLUID
+               ? VOLUME_BY_COLOR
+               : VOLUME_BY_OWN;
+}
 
 /* The transfer function of translucent fluid as a table for shaders/volume/raycast_gather.glsl. By
    position on the field's ramp: the curve, its integral from 0 on, and its total rise and fall; by
@@ -521,8 +531,8 @@ static void bind_transfer(Raycast *raycast, const Volume *volume, const Particle
     transfer_bind(&raycast->transfer, &volume_def(def)->raycast.curve, there ? &def->opacity.curve : &even);
     if (by == VOLUME_BY_OWN)
         glBindTextures(OPACITY_FIELD_UNIT, 2, volume->opacity);
-    block->opacity_low = (float)frame->opacity_range[0];
-    block->opacity_scale = (float)(1 / (frame->opacity_range[1] - frame->opacity_range[0]));
+    block->opacity_low = (float)frame->curves.opacity[0];
+    block->opacity_scale = (float)(1 / (frame->curves.opacity[1] - frame->curves.opacity[0]));
 }
 
 /* The nearest front face and the farthest back face in each pixel. */
@@ -582,12 +592,12 @@ static void look_through(Raycast *raycast, const Frame *frame)
     else if (raycast_is_full(frame->def))
         background_copy_make_edges(&raycast->background, &raycast->edges, frame);
     else
-        glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor_light);
+        glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor.light);
     const GLuint programs[] = {raycast->program, raycast->drops.program};
     for (int i = 0; i < 2 && programs[i]; i++) {
         glProgramUniform1f(programs[i], REFRACTION_INDEX_AT, (GLfloat)cast->ior);
         glProgramUniform1f(programs[i], ATTENUATION_AT,
-                           cast->attenuation > 0 ? (GLfloat)cast->attenuation : frame->attenuation);
+                           cast->attenuation > 0 ? (GLfloat)cast->attenuation : frame->fluid.attenuation);
     }
 }
 

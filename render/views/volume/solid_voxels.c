@@ -1,8 +1,8 @@
 #include "render/frame/passes.h"
 #include "render/views/volume/volume_private.h"
 #include "shaders/volume/volume_bindings.h"
-#include "sim/base/parallel.h"
-#include "sim/gpu/program.h"
+#include "sim/base/base.h"
+#include "sim/gpu/gl.h"
 #include "sim/mesh/mesh_shape.h"
 
 #include <epoxy/gl.h>

@@ -5,7 +5,7 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/volume/volume_bindings.h"
 #include "sim/base/key_rows.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <stdlib.h>
@@ -59,7 +59,7 @@ const Key volume_keys[] = {
     CHOICE_OF("view.volume.bounds", L | KEY_INDEX, volume_bounds_names, AT(bounds),
            "of the volume: the box's, or those that the fluid has in each picture"),
     CHOICE_OF("view.volume.method", L | KEY_INDEX | KEY_REBUILD, volume_method_names, AT(method),
-           "how the volume is made: see docs/views/volume.md; direct: none, the field is summed where it is sampled"),
+           "how the volume is made: see docs/manual/views/volume.md; direct: none, the field is summed where it is sampled"),
     CHOICE_OF("view.volume.show", L | KEY_INDEX | KEY_REBUILD, volume_show_names, AT(show), "a stage of the way to the picture"),
     CHOICE_OF("view.volume.solids", L | KEY_INDEX | KEY_REBUILD, volume_solids_names, AT(solids),
            "how solids are drawn: their surfaces as in other views, or voxels as the fluid's, by raycasting"),
@@ -98,21 +98,6 @@ const ViewGrade volume_grades[] = {
     {"view.volume.skip", {"false", "true"}, NULL, NULL, true},
     {0},
 };
-
-VolumeOpacity volume_opacity(const ViewDef *def)
-{
-    const VolumeDef *own = volume_def(def);
-    if (def->opacity.by == 0 || own->raycast.look != RAYCAST_TRANSLUCENT || own->show != VOLUME_SHADED)
-        return VOLUME_EVEN;
-    return scalar_of_curve(&def->opacity) == view_color_by(def) && view_color_by(def) != SCALAR_FLUID
-               ? VOLUME_BY_COLOR
-               : VOLUME_BY_OWN;
-}
-
-VolumeDef *volume_def(const ViewDef *def)
-{
-    return view_own_settings(def, &view_volume);
-}
 
 /* One slice of a volume as a picture, for inspection. */
 typedef struct VolumeSlice {
@@ -364,19 +349,19 @@ static bool own_colors(const ViewDef *def)
 static void show(const ViewDef *def, Frame *frame)
 {
     const bool steps = volume_def(def)->show == VOLUME_STEPS;
-    frame->clear = volume_def(def)->show == VOLUME_SHADED && own_colors(def) ? CLEAR_FLUID_LIGHT : 0;
+    frame->fluid.clear = volume_def(def)->show == VOLUME_SHADED && own_colors(def) ? CLEAR_FLUID_LIGHT : 0;
     frame->no_solids = volume_def(def)->solids == VOLUME_SOLIDS_VOXELS;
-    frame->refraction = (float)volume_def(def)->raycast.ior;
+    frame->fluid.refraction = (float)volume_def(def)->raycast.ior;
     if (volume_opacity(def) == VOLUME_EVEN)
-        frame->curves = 0;
+        frame->curves.drawn = 0;
     if (!steps && volume_def(def)->show != VOLUME_SLICE)
         return;
-    frame->by_fluid = false;
-    frame->shown = steps ? "steps" : "field";
-    frame->shown_unit = "";
-    frame->range[0] = 0;
-    frame->range[1] = steps ? 64 : 1.25;
-    frame->beyond[0] = frame->beyond[1] = false;
+    frame->colors.by_fluid = false;
+    frame->colors.name = steps ? "steps" : "field";
+    frame->colors.unit = "";
+    frame->colors.range[0] = 0;
+    frame->colors.range[1] = steps ? 64 : 1.25;
+    frame->colors.beyond[0] = frame->colors.beyond[1] = false;
 }
 
 /* Values are those where rays show the fluid: in translucent fluid, where half the background is hidden. */

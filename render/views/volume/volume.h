@@ -3,7 +3,7 @@
 #define RENDER_VIEWS_VOLUME_VOLUME_H
 
 #include "render/frame/view.h"
-#include "sim/base/memory.h"
+#include "sim/base/base.h"
 
 typedef enum VolumeBounds { VOLUME_BOX, VOLUME_FLUID } VolumeBounds;
 typedef enum VolumeMethod {
@@ -75,7 +75,10 @@ VolumeOpacity volume_opacity(const ViewDef *def);
 extern const ControlPreset volume_presets[];
 
 /* The settings of a def; not const, like memchr's result. */
-VolumeDef *volume_def(const ViewDef *def);
+static inline VolumeDef *volume_def(const ViewDef *def)
+{
+    return view_own_settings(def, &view_volume);
+}
 
 extern const VolumeDef volume_usual; /* the defaults */
 extern const Key volume_keys[];      /* ended by a row without a path */

@@ -8,9 +8,9 @@
 
 #include "render/frame/frame.h"
 #include "render/particles/particles.h"
-#include "sim/base/tables.h"
+#include "sim/base/base.h"
+#include "sim/gpu/gl.h"
 #include "sim/gpu/particle_buffers.h"
-#include "sim/gpu/timer.h"
 #include "slosh/error.h"
 #include "slosh/mesh.h"
 
@@ -38,7 +38,7 @@ typedef struct Volume {
 /* Spacings: smaller cells show no more detail of a field that is smooth over two spacings. */
 #define VOLUME_FINEST 0.125
 
-/* The grid that covers the box and h around it: `cells` along the box's longest side, or cells of `cell`
+/* The grid that covers the box and h around it. `cells` along the box's longest side, or cells of `cell`
    spacings, but never wider than h (wider cells could miss particles between samples). With `cells_least`,
    a cell is not smaller than VOLUME_FINEST, if at least this many cells remain. Reads only box, spacing
    and h of the particles. Returns false if a side has more than 4096 cells, or the grid more than 2^31. */
@@ -107,8 +107,8 @@ extern const VoxelizeMethod voxelize_points;  /* geometry, layers, planes */
 extern const VoxelizeMethod voxelize_compute; /* scatter, gather, direct */
 extern const VoxelizeMethod voxelize_slabs;
 
-/* As voxelize_points.create and voxelize_compute.create, without features that some drivers lack: one draw
-   per layer instead of gl_Layer in a vertex shader, exchanges of bits instead of float atomics. */
+/* For tests: as voxelize_points.create and voxelize_compute.create, without features that some drivers lack.
+   One draw per layer instead of gl_Layer in a vertex shader, exchanges of bits instead of float atomics. */
 void *voxelize_points_plain(VolumeMethod method, bool scalar, Error *error);
 void *voxelize_compute_plain(VolumeMethod method, bool scalar, Error *error);
 

@@ -2,7 +2,7 @@
 #include "render/particles/particles.h"
 #include "render/views/volume/volume_private.h"
 #include "shaders/volume/volume_bindings.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -3,12 +3,34 @@
 #include "render/particles/particles.h"
 #include "render/views/volume/volume_private.h"
 #include "shaders/volume/volume_bindings.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+
+unsigned volume_texture(const int size[3], unsigned format, const char *label)
+{
+    static const GLfloat none[4] = {0};
+    GLuint texture;
+    gl_debug_errors(); /* drops earlier errors: the query below is for this texture */
+    glCreateTextures(GL_TEXTURE_3D, 1, &texture);
+    glObjectLabel(GL_TEXTURE, texture, -1, label);
+    glTextureStorage3D(texture, 1, format, size[0], size[1], size[2]);
+    if (gl_errors_take(0) > 0) {
+        glDeleteTextures(1, &texture);
+        return 0;
+    }
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    for (GLenum axis = 0; axis < 3; axis++)
+        glTextureParameteri(texture,
+                            (GLenum[]){GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}[axis],
+                            GL_CLAMP_TO_EDGE);
+    glClearTexImage(texture, 0, format == GL_R32F ? GL_RED : GL_RGBA, GL_FLOAT, none);
+    return texture;
+}
 
 /* A point takes up to eleven of a geometry shader's 1,024 components. */
 enum { GEOMETRY_POINTS = 80, PACKED = 4 };

@@ -1,6 +1,6 @@
 /* Voxelization on the CPU by include/slosh/mesh.h: for software drivers, which use the CPU's memory. */
 #include "render/views/volume/volume_private.h"
-#include "sim/base/parallel.h"
+#include "sim/base/base.h"
 #include "sim/kernel/kernel.h"
 #include "slosh/mesh.h"
 

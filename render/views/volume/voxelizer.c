@@ -4,8 +4,7 @@
 #include "render/views/volume/volume_private.h"
 #include "shaders/volume/volume_bindings.h"
 #include "shaders/volume/volume_block.h"
-#include "sim/gpu/gl_context.h"
-#include "sim/gpu/program.h"
+#include "sim/gpu/gl.h"
 #include "sim/kernel/kernel.h"
 
 #include <epoxy/gl.h>
@@ -143,7 +142,8 @@ void volume_walls_apply(const VolumeWalls *walls, const ParticleBuffers *particl
         if (volume->scalar)
             mirror_at_wall(volume, volume->scalar, axis, low, low + size);
     }
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
+                    GL_FRAMEBUFFER_BARRIER_BIT); /* the next picture draws into the field */
 }
 
 bool fluid_numbers_create(VolumeFluidNumbers *numbers, Error *error)
@@ -206,13 +206,13 @@ static const VoxelizeMethod *const methods[] = {
     [VOLUME_GATHER] = &voxelize_compute,  [VOLUME_SLABS] = &voxelize_slabs,
     [VOLUME_DIRECT] = &voxelize_compute};
 
-/* Software driver: the driver's memory is the CPU's, and sums on the CPU are by far the fastest. Hardware:
-   the paper's method. */
+/* Software driver: the driver's memory is the CPU's, and sums on the CPU are by far the fastest. Hardware: a
+   geometry shader (the paper's method) sends each particle's slices through a few units of a GPU only. */
 static VolumeMethod choose(VolumeMethod method)
 {
     if (method != VOLUME_AUTO)
         return method;
-    return gl_renderer_is_software() ? VOLUME_SLABS : VOLUME_GEOMETRY;
+    return gl_renderer_is_software() ? VOLUME_SLABS : VOLUME_GATHER;
 }
 
 static GLuint create_buffer(size_t size, const char *label)
@@ -266,28 +266,6 @@ const char *voxelizer_defines(const Voxelizer *voxelizer)
     static const char *const lines[] = {"", "#define SCALAR 1\n", "#define FIELD_DIRECT 1\n",
                                         "#define FIELD_DIRECT 1\n#define SCALAR 1\n"};
     return lines[2 * (voxelizer->method == VOLUME_DIRECT) + voxelizer->scalar];
-}
-
-unsigned volume_texture(const int size[3], unsigned format, const char *label)
-{
-    static const GLfloat none[4] = {0};
-    GLuint texture;
-    gl_debug_errors(); /* drops earlier errors: the query below is for this texture */
-    glCreateTextures(GL_TEXTURE_3D, 1, &texture);
-    glObjectLabel(GL_TEXTURE, texture, -1, label);
-    glTextureStorage3D(texture, 1, format, size[0], size[1], size[2]);
-    if (gl_errors_take(0) > 0) {
-        glDeleteTextures(1, &texture);
-        return 0;
-    }
-    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    for (GLenum axis = 0; axis < 3; axis++)
-        glTextureParameteri(texture,
-                            (GLenum[]){GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}[axis],
-                            GL_CLAMP_TO_EDGE);
-    glClearTexImage(texture, 0, format == GL_R32F ? GL_RED : GL_RGBA, GL_FLOAT, none);
-    return texture;
 }
 
 static double bytes_of(const VolumeGrid *grid, bool scalar)

@@ -1,4 +1,4 @@
-/* Constants of the walls' cushion, shared by C and shaders: sim/box/walls.h. */
+/* Constants of the walls' cushion, shared by C and shaders: sim/box/box.h. */
 #ifndef SLOSH_WALL_CUSHION_PART_H
 #define SLOSH_WALL_CUSHION_PART_H
 

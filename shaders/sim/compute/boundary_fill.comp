@@ -46,7 +46,7 @@ void main()
 #endif
     vec3 wall = solid_velocity_at(k, x);
     if (weight > 0.0) {
-        vec3 g = felt_at(x);
+        vec3 g = apparent_at(x);
         p = (seen + dot(g - solid_acceleration_at(k, x), density_x)) / weight;
     }
 #ifndef NEGATIVE_PRESSURE

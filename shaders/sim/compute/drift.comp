@@ -1,13 +1,13 @@
-// Free flight between two poses of the box (sim/box/box_step.h), then the last guard of solids and walls.
+// Free flight between two poses of the box (sim/box/box.h), then the last guard of solids and walls.
 #define WRITES_WATCH
 #include "sim/constants.glsl"
 #include "sim/place.glsl"
-#ifdef FELT
-#include "sim/felt.glsl"
+#ifdef FORCES
+#include "sim/forces.glsl"
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 
 // Velocity taken by guards. If several solids hold a particle in half a step, all counts for the last solid.
-vec3 taken_by_walls = vec3(0), taken_by_solid = vec3(0), solid_turned = vec3(0), held_at;
+vec3 taken_by_walls = vec3(0), taken_by_solid = vec3(0), solid_turned = vec3(0), held_at = vec3(0);
 int last_solid = -1;
 
 #define HELD_BY(k, at, taken)                                   \
@@ -54,7 +54,7 @@ uint fly(uint i)
     if (solids_guard(before, x, v))
         times++;
 #endif
-#ifdef FELT
+#ifdef FORCES
     vec3 free = v;
 #endif
     bool held = false;
@@ -79,7 +79,7 @@ uint fly(uint i)
     }
     if (held)
         times++;
-#ifdef FELT
+#ifdef FORCES
     taken_by_walls = free - v;
     held_at = x;
 #endif
@@ -94,16 +94,16 @@ uint fly(uint i)
     return times;
 }
 
-#ifdef FELT
-void feel(uint i)
+#ifdef FORCES
+void add_forces(uint i)
 {
     float mass = i < particle_count() ? fluids[FLUID_OF(i)].mass : 0.0;
     vec3 force = mass * taken_by_walls;
-    felt_add(0u, force, cross(held_at, force));
+    forces_add(0u, force, cross(held_at, force));
 #ifdef SOLIDS
     for (int k = 0; k < solid_total; k++) {
         float share = k == last_solid ? mass : 0.0;
-        felt_add(uint(k) + 1u, share * taken_by_solid, share * solid_turned);
+        forces_add(uint(k) + 1u, share * taken_by_solid, share * solid_turned);
     }
 #endif
 }
@@ -121,8 +121,8 @@ void main()
     barrier();
     if (gl_LocalInvocationID.x == 0u && held_by_group > 0u)
         atomicAdd(guarded, held_by_group);
-#ifdef FELT
+#ifdef FORCES
     if (held_by_group > 0u)
-        feel(i);
+        add_forces(i);
 #endif
 }

@@ -8,8 +8,8 @@
 #include "sim/wall_drag.glsl"
 #define NAMED
 #endif
-#ifdef FELT
-#include "sim/felt.glsl"
+#ifdef FORCES
+#include "sim/forces.glsl"
 #define NAMED
 #endif
 #ifdef NAMED
@@ -24,7 +24,7 @@ void main()
 {
     uint i = invocation(), lane = gl_LocalInvocationID.x;
     uvec3 found = uvec3(0u);
-#ifdef FELT
+#ifdef FORCES
     vec3 pushed = vec3(0), turned = vec3(0);
 #endif
     if (i < particles_there()) { // independent of findings of the same pass
@@ -41,7 +41,7 @@ void main()
 #endif
         vec3 v = velocity[i].xyz + a * kick_dt;
         velocity[i].xyz = v;
-#ifdef FELT
+#ifdef FORCES
         pushed = -kick_dt * fluids[FLUID_OF(i)].mass * (a - gravity);
         turned = cross(position[i].xyz, pushed);
 #endif
@@ -55,8 +55,8 @@ void main()
             went_too_far = 1u;
         found = floatBitsToUint(abs(vec3(speed2, dot(a, a), 1.0 / (position[i].w * inverse_unit_volume * rest_number_density))));
     }
-#ifdef FELT
-    felt_add(0u, pushed, turned);
+#ifdef FORCES
+    forces_add(0u, pushed, turned);
 #endif
     greatest[lane] = found;
     for (uint reach = 32u; reach > 0u; reach >>= 1u) {

@@ -26,6 +26,16 @@
 /* Greatest share of a solid among a particle's neighbours along the solid: for fluid between two solids. */
 #define SHARE_MOST 0.5F
 
+/* Part of surface_slope below which a particle is no part of a surface: fluid out of order has some slope
+   everywhere. */
+#define SURFACE_FROM 0.35F
+
+/* What a surface lacks is at most so many times 1 - n / n0: none where n is whole. */
+#define LACK_OVER_GAP 2.0F
+
+/* Layers of pressure below which walls hold no weight: a row that lies alone on a wall has half a layer. */
+#define LIFT_FROM 0.5F
+
 UNIFORM_BLOCK(DfsphBlock, METHOD_BLOCK)
 {
     float gradient;          /* F = -W'(r) / r over f(r / h), of the density kernel, 1/m2 */
@@ -33,6 +43,8 @@ UNIFORM_BLOCK(DfsphBlock, METHOD_BLOCK)
     float relaxation;        /* of Jacobi */
     float pressure_of_term;  /* p over k */
     float least_squares;     /* lower bound of D times m, 1/m2 */
+    float surface_lack;      /* the outermost row of a half-filled lattice: 1 - n / n0, */
+    float surface_slope;     /* and |sum F x_ij|, 1/m */
 }
 BLOCK_END(DfsphBlock);
 

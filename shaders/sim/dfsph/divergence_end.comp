@@ -1,11 +1,11 @@
 // dfsph: the result of the solver of divergence becomes acceleration, pressure, and the first k of the next step.
-#ifndef FELT_SOLIDS
+#ifndef FORCES_ON_SOLIDS
 #define OWN_ACCESS writeonly
 #endif
 #include "sim/constants.glsl"
 #include "shaders/sim/dfsph/dfsph_block.h"
 #include "sim/own.glsl"
-#ifdef FELT_SOLIDS
+#ifdef FORCES_ON_SOLIDS
 #define LISTS_LATER
 #define KERNEL_WENDLAND_C2 1
 #include "sim/shapes.glsl"
@@ -13,7 +13,7 @@
 #include "sim/walk.glsl"
 layout(std430, binding = NEAR_BUFFER) readonly buffer Near { vec4 near[]; };
 
-uint felt_by;
+uint boundary_by;
 
 layout(std430, binding = PUSHES_BUFFER) readonly buffer Pushes { vec4 push[]; };              // accelerations, k
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
@@ -30,9 +30,9 @@ vec3 push_solid(uint i, vec3 d, float r2)
     return force + part * share_of(i) / share * fluids[FLUID_OF(i)].mass * along_solid(i, push[i].xyz);
 }
 
-#define FELT_BEGIN
-#define FELT_FORCE(i, term, d, r2) push_solid(i, d, r2)
-#include "sim/felt_solids.glsl"
+#define FORCES_BEGIN
+#define FORCES_FORCE(i, term, d, r2) push_solid(i, d, r2)
+#include "sim/solid_forces.glsl"
 #else
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; };   // p, k
 layout(std430, binding = ACCELERATIONS_BUFFER) buffer Accelerations { vec4 acceleration[]; };

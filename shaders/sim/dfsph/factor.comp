@@ -37,6 +37,13 @@ float along()
 }
 #endif
 
+// What a surface lacks: lack_of in sim/methods/dfsph/dfsph_passes.c.
+float lack_of(vec3 slope, float full)
+{
+    float part = (length(slope) / surface_slope - SURFACE_FROM) / (1.0 - SURFACE_FROM);
+    return clamp(part, 0.0, 1.0) * clamp(LACK_OVER_GAP * (1.0 - full), 0.0, surface_lack);
+}
+
 void main()
 {
     uint i = invocation();
@@ -50,6 +57,11 @@ void main()
     column_set(SCRATCH_solid_slope, i, solid_slope);
     scratch[SCRATCH_solid_share + i] = along() * rest_number_density / pressure_of_term;
 #endif
+    vec3 slope = whole - twice;
+#ifdef SOLIDS
+    slope -= solid_slope;
+#endif
+    scratch[SCRATCH_lack + i] = lack_of(slope, n / rest_number_density);
     scratch[SCRATCH_factor + i] = d > 0.0 ? min(1.0, rest_number_density / n) / d : 0.0;
     float volume = 1.0 / n;
     position[i].w = unit_volume * volume;

@@ -27,11 +27,11 @@ void boundary_pair(uint j, vec3 d, float q)
 }
 #endif
 
-// n / n0 - 1 after the step. For divergence an excess at the begin counts as 0; with negative pressure a lack counts as
+// n / n0 + `lack` - 1 after the step. For divergence an excess at the begin counts as 0; with negative pressure a lack counts as
 // 0 too.
-float residual_of(float volume)
+float residual_of(float volume, float lack)
 {
-    float now = 1.0 / (volume * rest_number_density) - 1.0;
+    float now = 1.0 / (volume * rest_number_density) + lack - 1.0;
 #if defined DIVERGENCE && defined NEGATIVE_PRESSURE
     now = 0.0;
 #elif defined DIVERGENCE
@@ -48,7 +48,7 @@ void main()
     vec4 place = near[i], own_move = move[i];
     own_velocity = own_move.xyz;
     walk_pairs(i, place.xyz);
-    float residual = residual_of(own_move.w);
+    float residual = residual_of(own_move.w, scratch[SCRATCH_lack + i]);
     float k = next_term(place.w, residual, scratch[SCRATCH_factor + i], scratch[SCRATCH_change + i]);
     scratch[SCRATCH_miss + i] = miss_of(residual, place.w);
     scratch[SCRATCH_change + i] = (scratch[SCRATCH_change + i] == 0.0 ? BEGINS : 1.0) * (k - place.w);

@@ -1,4 +1,4 @@
-// Free flight between two poses of the box (sim/box/box_step.h), then the last guard of walls.
+// Free flight between two poses of the box (sim/box/box.h), then the last guard of walls.
 #include "sim/fragment/own.glsl"
 uniform usampler2D held; // number of times the guard held each particle
 uniform vec3 rotation[3], omega0, omega1, shift, velocity_change;

@@ -3,6 +3,8 @@
 
 // Sums of W, and of F^2 r^2 / m_j; the sum of F x_ij is `whole`.
 float heights = 1.0, squares = 0.0;
+// The part of `whole` by the particle's own images' k.
+vec3 twice = vec3(0);
 
 vec3 weigh(vec3 d, float q, float inverse_mass)
 {
@@ -16,7 +18,10 @@ vec3 weigh(vec3 d, float q, float inverse_mass)
 void pair(uint j, vec3 d, float q, float term)
 {
     float inverse_mass = j == self ? 0.0 : 1.0 / fluids[FLUID_OF(j)].mass, times = j == self ? 2.0 : 1.0;
-    part += times * weigh(d, q, inverse_mass);
+    vec3 force = weigh(d, q, inverse_mass);
+    part += times * force;
+    if (j == self)
+        twice += mirror * force;
 }
 
 #ifndef BOUNDARY_SEEN // further use of a boundary particle in a pass: F x_ib, x_ib

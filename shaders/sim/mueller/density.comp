@@ -1,6 +1,7 @@
 // mueller: number density, volume, pressure: sim/methods/mueller/pairs_mueller.c and finish_density in sim/methods/mueller/mueller.c.
 #include "sim/constants.glsl"
 #include "sim/images.glsl"
+#include "sim/mueller/kernel.glsl"
 #define LISTS_FIRST
 #include "sim/walk.glsl"
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }; // w: volume, m3
@@ -14,13 +15,7 @@ float sum = 0.0; // of the kernel, but for its scale
 
 void meet(uint j, vec3 d, float volume)
 {
-    float q2 = dot(d, d) * inverse_support * inverse_support;
-#ifdef POLY6
-    float t = max(1.0 - q2, 0.0);
-#else
-    float t = max(1.0 - sqrt(q2), 0.0);
-#endif
-    sum += t * t * t;
+    sum += weight(d);
 }
 
 void main()

@@ -1,6 +1,7 @@
 // Number density, volume, pressure: sim/methods/mueller/pairs_mueller.c and finish_density in sim/methods/mueller/mueller.c.
 #include "sim/fragment/own.glsl"
 #include "sim/fragment/neighbours.glsl"
+#include "sim/mueller/kernel.glsl"
 layout(location = 0) out vec4 fields; // volume, p, 0; 1 for a particle without a place in the buckets, else 0
 layout(location = 1) out vec4 near; // read of neighbours by force.frag: x y z, p V^2
 #ifdef VISCOUS
@@ -10,24 +11,13 @@ layout(location = 2) out vec4 moving; // velocity, volume
 vec3 here;
 float sum;
 
-void add(vec3 d)
-{
-    float q2 = dot(d, d) * inverse_support * inverse_support;
-#ifdef POLY6
-    float t = max(1.0 - q2, 0.0);
-#else
-    float t = max(1.0 - sqrt(q2), 0.0);
-#endif
-    sum += t * t * t;
-}
-
-void meet(int j) { add(here - of_particle(position, j).xyz); }
+void meet(int j) { sum += weight(here - of_particle(position, j).xyz); }
 
 void meet_images(int j)
 {
     vec3 x = of_particle(position, j).xyz;
     for (int k = 0; k < image_count; k++)
-        add(images[k].x - x);
+        sum += weight(images[k].x - x);
 }
 
 void main()

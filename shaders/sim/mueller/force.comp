@@ -3,17 +3,11 @@
 #define LISTS_LATER
 #include "sim/constants.glsl"
 #include "sim/force.glsl"
+#include "sim/mueller/kernel.glsl"
 
 float volume_of(uint i) { return velocity[i].w; }
 
 float extra_of(uint fluid) { return 0.0; }
-
-// Force of pressure, over d.
-float push_of(float terms, float r)
-{
-    float t = 1.0 - r * inverse_support;
-    return pressure_scale * (t * t) * terms / r;
-}
 
 vec3 pair_force(Side own, Side other, vec3 d, float r2)
 {
@@ -26,8 +20,8 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
     return force;
 }
 
-#ifdef FELT_SOLIDS
-#include "sim/felt_solids.glsl"
+#ifdef FORCES_ON_SOLIDS
+#include "sim/solid_forces.glsl"
 #else
 #include "sim/images.glsl"
 #include "sim/wall_lift.glsl"
@@ -74,7 +68,7 @@ void main()
     ivec3 at = cell_of(x);
     Fluid fluid = fluids[FLUID_OF(i)];
     vec3 force = neighbours_force(i, x, at) + images_force(i, x, at);
-    vec3 g = felt_at(x), held = lift_at(x, g, fluid.density, pressure[i].x) + cushion_at(x, velocity[i].xyz, g, dt, pressure[i].x / max(fluid.density * spacing * length(g), 1e-20));
+    vec3 g = apparent_at(x), held = lift_at(x, g, fluid.density, pressure[i].x) + cushion_at(x, velocity[i].xyz, g, dt, pressure[i].x / max(fluid.density * spacing * length(g), 1e-20));
     acceleration[i] = vec4(force / fluid.mass + held, 0.0);
 }
 #endif

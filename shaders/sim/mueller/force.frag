@@ -5,8 +5,9 @@
 #include "sim/wall_cushion.glsl"
 #include "sim/pair_direction.glsl"
 #include "sim/pair_viscosity.glsl"
+#include "sim/mueller/kernel.glsl"
 uniform sampler2D fields, near, moving; // of density.frag
-uniform vec3 felt_origin, felt_alpha, felt_omega; // apparent gravity
+uniform vec3 apparent_origin, apparent_alpha, apparent_omega; // apparent gravity
 uniform float dt;
 layout(location = 0) out vec4 acceleration;
 
@@ -18,19 +19,12 @@ vec3 speed;
 float viscosity, drag_scale;
 #endif
 
-// Force of pressure, over the distance.
-float push_of(float term, float r)
-{
-    float t = max(1.0 - r * inverse_support, 0.0);
-    return pressure_scale * (t * t) * (pressure_term + term) / r;
-}
-
 void meet_images(int j)
 {
     vec4 other = of_particle(near, j);
     for (int k = 0; k < image_count; k++) {
         vec3 d = images[k].x - other.xyz;
-        force += images[k].sign * (push_of(other.w, max(length(d), 1e-6 * support)) * d);
+        force += images[k].sign * (push_of(pressure_term + other.w, max(length(d), 1e-6 * support)) * d);
     }
 }
 
@@ -46,7 +40,7 @@ void meet(int j)
         r2 = least * least;
     }
     float r = sqrt(r2), t = 1.0 - r * inverse_support;
-    force += push_of(other.w, r) * d;
+    force += push_of(pressure_term + other.w, r) * d;
 #ifdef VISCOUS
     vec4 its = of_particle(moving, j);
 #if FLUIDS > 1
@@ -74,7 +68,7 @@ void main()
     drag_scale = 0.5 * viscosity_scale * known.x;
 #endif
     meet_neighbours(self, here);
-    vec3 g = felt_origin - cross(felt_alpha, here) - cross(felt_omega, cross(felt_omega, here));
+    vec3 g = apparent_origin - cross(apparent_alpha, here) - cross(apparent_omega, cross(apparent_omega, here));
     vec3 held = lift_at(here, g, fluid.density, known.y) + cushion_at(here, of_particle(velocity, self).xyz, g, dt, known.y / max(fluid.density * spacing * length(g), 1e-20));
     acceleration = vec4(force / fluid.mass + held, 0.0);
 }

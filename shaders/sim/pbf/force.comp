@@ -7,15 +7,15 @@
 layout(std430, binding = MOTIONS_BUFFER) readonly buffer Motions { vec4 motion[]; }; // velocities at the step's end, volume
 layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };
 layout(location = PASS_DT_AT) uniform float dt;
-#define FELT_FORCE(i, term, d, r2) \
-    pair_force(side_of(i, term), felt_side, d, r2) + own[OWN_term + i] * gradient * shape(sqrt(r2) * inverse_support) * d
+#define FORCES_FORCE(i, term, d, r2) \
+    pair_force(side_of(i, term), boundary_side, d, r2) + own[OWN_term + i] * gradient * shape(sqrt(r2) * inverse_support) * d
 #include "sim/incompressible/friction.glsl"
 #include "sim/own.glsl"
 
 float volume_of(uint i) { return motion[i].w; }
 
-#ifdef FELT_SOLIDS
-#include "sim/felt_solids.glsl"
+#ifdef FORCES_ON_SOLIDS
+#include "sim/solid_forces.glsl"
 #else
 #include "sim/scratch.glsl"
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; }; // p, k

@@ -2,7 +2,10 @@
 #define LISTS_LATER
 #define PLACES near
 #include "shaders/sim/pbf/pbf_block.h"
-layout(std430, binding = POSITIONS_BUFFER) writeonly buffer Positions { vec4 position[]; };
+layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };
+#ifdef FIRST_MOVE
+layout(location = PASS_DT_AT) uniform float dt;
+#endif
 layout(std430, binding = NEAR_BUFFER) readonly buffer Near { vec4 near[]; }; // w: growth of k, times dt^2
 #include "sim/incompressible/push.glsl"
 #include "sim/own.glsl"
@@ -41,15 +44,33 @@ void hold_back(vec3 from, inout vec3 x)
     }
 }
 
+#ifdef FIRST_MOVE
+#include "sim/wall_lift.glsl"
+
+// Fallen again, but for what the walls hold: fall_run.
+vec3 fallen(uint i, vec3 seen)
+{
+    float warm = 1.0 - min(FORGOTTEN, FORGOTTEN_RATE * (settle_rate * dt)), p = pressure_of_term * own[OWN_term + i] / warm;
+    vec3 g = apparent_at(seen);
+    float layer = fluids[FLUID_OF(i)].density * spacing * length(g), part = layer > 0.0 ? clamp(PBF_WALL_FADE(p / layer), 0.0, 1.0) : 0.0;
+    vec3 way = -dt * dt * part * walls_lift(seen) * g;
+    for (uint a = 0u; a < 3u; a++)
+        own[a * OWN_STRIDE + OWN_moved + i] = way[a];
+    return place_after(i, position[i].xyz, way);
+}
+#else
+#define fallen(i, seen) (seen)
+#endif
+
 void main()
 {
     uint i = invocation();
     if (i >= particle_count())
         return;
-    vec3 from = near[i].xyz;
+    vec3 seen = near[i].xyz;
     own_term = near[i].w;
-    walk_pairs(i, from);
-    vec3 way = shortened(gradient * whole / fluids[FLUID_OF(i)].mass), x = from, left = left_of(i);
+    walk_pairs(i, seen);
+    vec3 from = fallen(i, seen), way = shortened(gradient * whole / fluids[FLUID_OF(i)].mass), x = from, left = left_of(i);
     place_move(x, left, way);
     vec3 free = x;
     hold_back(from, x);

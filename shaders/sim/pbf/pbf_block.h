@@ -32,6 +32,9 @@
    systems", 1972) */
 #define PBF_SHARE(times) ((times) < 1.0F ? (times) : 1.0F)
 
+/* Part of the support by walls, from pressure over a layer's; at most 1, at least 0. */
+#define PBF_WALL_FADE(layers) (0.5F * (layers)-1.0F)
+
 UNIFORM_BLOCK(PbfBlock, METHOD_BLOCK)
 {
     float gradient;          /* F = -W'(r) / r over f(r / h), of the density kernel, 1/m2 */

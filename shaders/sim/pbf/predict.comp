@@ -11,6 +11,6 @@ void main()
     if (i >= particle_count())
         return;
     vec3 fall = 0.5 * dt * dt * kick_gravity;
-    velocity[i].xyz += dt * kick_gravity - cross(felt_omega, fall);
+    velocity[i].xyz += dt * kick_gravity - cross(apparent_omega, fall);
     position[i].xyz = place_after(i, position[i].xyz, fall);
 }

@@ -1,4 +1,4 @@
-// wcsph: rate of density by the equation of continuity, with diffusion and the walls' images; then density, volume
+// wcsph: rate of density by the equation of continuity, with diffusion and the walls' images. Then density, volume
 // and pressure: rate_range in sim/methods/wcsph/pairs_wcsph.c, rate_body in sim/methods/wcsph/wcsph_passes.c, sim/methods/wcsph/pairs_images.c.
 #define BEHIND_DRIFT
 #define OWN_ACCESS writeonly

@@ -2,8 +2,8 @@
 // sim/methods/wcsph/pairs_images.c.
 #ifdef CORRECTED
 #define MEET_MORE(j, d, r2, term) correct_meet(j, d, r2, term);
-#define FELT_FORCE(i, term, d, r2) \
-    (pair_force(side_of(i, term), felt_side, d, r2) + \
+#define FORCES_FORCE(i, term, d, r2) \
+    (pair_force(side_of(i, term), boundary_side, d, r2) + \
      gradient_scale * shape(sqrt(r2) * inverse_support) * term * corrected(i, d))
 #elif !defined CURVATURE
 #define LISTS_FIRST
@@ -18,7 +18,7 @@ void correct_meet(uint j, vec3 d, float r2, float term);
 #include "sim/wcsph/evenness.glsl"
 
 // Volume for friction: fluid counts as at least THINNEST dense.
-float volume_felt(float volume) { return min(volume, 1.0 / (THINNEST * rest_number_density)); }
+float volume_bounded(float volume) { return min(volume, 1.0 / (THINNEST * rest_number_density)); }
 
 #ifdef CORRECTED
 #define CORRECTION_ACCESS readonly
@@ -33,7 +33,7 @@ vec3 shift_push = vec3(0), shift_image_push; // of S_j F x_ij
 
 float volume_squared(float volume)
 {
-    float v = rest_number_density * volume_felt(volume);
+    float v = rest_number_density * volume_bounded(volume);
     return volume > 0.0 ? v * v : 1.0;
 }
 #endif
@@ -45,7 +45,7 @@ float half_missing(uint i) { return dot(correction[2u * i].xyz, vec3(0.5 / float
 vec3 more_friction(uint j, vec3 d, float f, float term)
 {
     Side other = side_of(j, term);
-    float both = volume_felt(self_side.volume) * volume_felt(other.volume);
+    float both = volume_bounded(self_side.volume) * volume_bounded(other.volume);
     return f * radial_friction * both * pair_viscosity(self_side.viscosity, other.viscosity) *
            (half_missing(self) + half_missing(j)) * dot(other.v - self_side.v, d) * d;
 }
@@ -73,9 +73,9 @@ float extra_of(uint fluid) { return wcsph_fluids[fluid].artificial_viscosity; }
 vec3 rub(Side own, Side other, vec3 d, float f)
 {
 #if defined RUBS && defined RADIAL
-    return f * volume_felt(own.volume) * volume_felt(other.volume) * pair_viscosity(own.viscosity, other.viscosity) * radial_friction * dot(other.v - own.v, d) * d;
+    return f * volume_bounded(own.volume) * volume_bounded(other.volume) * pair_viscosity(own.viscosity, other.viscosity) * radial_friction * dot(other.v - own.v, d) * d;
 #elif defined RUBS
-    return f * volume_felt(own.volume) * volume_felt(other.volume) * pair_viscosity(own.viscosity, other.viscosity) * (other.v - own.v);
+    return f * volume_bounded(own.volume) * volume_bounded(other.volume) * pair_viscosity(own.viscosity, other.viscosity) * (other.v - own.v);
 #else
     return vec3(0);
 #endif
@@ -96,7 +96,7 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
 #endif
 #ifdef ARTIFICIAL
     if (own.extra == other.extra || own.extra * other.extra == 0.0) // artificial_of of sim/methods/wcsph/pairs_wcsph.c
-        push += volume_felt(own.volume) * volume_felt(other.volume) * (own.extra + other.extra) * dot(other.v - own.v, d) / (r2 + support * support / 400.0);
+        push += volume_bounded(own.volume) * volume_bounded(other.volume) * (own.extra + other.extra) * dot(other.v - own.v, d) / (r2 + support * support / 400.0);
 #endif
     return rub(own, other, d, f) + f * push * d;
 }
@@ -178,7 +178,7 @@ void meet_boundary_image(uint j, vec3 d, float volume)
 vec3 images_force(vec3 x, ivec3 at, float density)
 {
     float weight = density / (rest_number_density * rest_number_density);
-    vec3 g = felt_at(x), force = vec3(0);
+    vec3 g = apparent_at(x), force = vec3(0);
     float layer = weight * spacing * length(g);
     inverse_layer = layer > 0.0 ? 1.0 / layer : 0.0;
     int end = images_end(x);
@@ -213,8 +213,8 @@ vec3 images_force(vec3 x, ivec3 at, float density)
     return gradient_scale * force;
 }
 
-#ifdef FELT_SOLIDS
-#include "sim/felt_solids.glsl"
+#ifdef FORCES_ON_SOLIDS
+#include "sim/solid_forces.glsl"
 #else
 #include "sim/wall_cushion.glsl"
 layout(location = PASS_DT_AT) uniform float dt;
@@ -237,7 +237,7 @@ void main()
 #endif
 #endif
     force += curvature_force(i, x, at);
-    acceleration[i] = vec4(force / fluid.mass + cushion_at(x, velocity[i].xyz, felt_at(x), dt, self_side.pressure * inverse_layer), 0.0);
+    acceleration[i] = vec4(force / fluid.mass + cushion_at(x, velocity[i].xyz, apparent_at(x), dt, self_side.pressure * inverse_layer), 0.0);
     even_write(i);
 }
 #endif

@@ -12,7 +12,7 @@
 #define OUTWARDS_BUFFER    10
 
 /* Least density for friction, over rho0: a particle that carries less has a wrong density after a splash,
-   and would not be stable at the usual step: docs/failures.md. */
+   and would not be stable at the usual step: docs/labbook/failures.md. */
 #define THINNEST 0.9f
 
 /* Fluids with a greater density contrast share pressure by density: sim/methods/wcsph/pairs_surface.c. */

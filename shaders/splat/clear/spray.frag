@@ -35,7 +35,7 @@ vec3 through_ball(Surface s, float radius)
 }
 
 // The rim reflects at exit as at entry. A drop also focuses the key light on the side away from the light, which darkens the rim,
-// most towards the light: against an even background, this is what makes a drop visible.
+// most towards the light. Against an even background, this is what makes a drop visible.
 vec3 shaded(Surface s, float radius)
 {
     vec3 inside = through_ball(s, radius);

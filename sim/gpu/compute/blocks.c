@@ -3,7 +3,7 @@
 
 #include "shaders/sim/constant_block.h"
 #include "shaders/sim/step_block.h"
-#include "sim/box/walls.h"
+#include "sim/box/box.h"
 
 #include <epoxy/gl.h>
 #include <string.h>
@@ -62,8 +62,7 @@ void compute_constants(Compute *compute)
                        .inverse_unit = (float)(1 / s->unit),
                        .unit_volume = (float)s->unit_volume,
                        .inverse_unit_volume = (float)(1 / s->unit_volume),
-                       .wall_lift =
-                           wall_lift_of(&s->lattice, (double)s->spacing, (double)s->support_radius).scale,
+                       .wall_lift = s->lift.scale,
                        .particle_total = (int)compute->count,
                        .dimensions = s->dimensions};
     grid_constants(s, &compute->fold, &c);
@@ -118,15 +117,15 @@ void compute_set_kick(Compute *compute, const float gravity[3], float dt)
 {
     StepBlock block = {.kick_dt = dt};
     copy3(gravity, block.gravity);
-    put_step(compute, &block, offsetof(StepBlock, gravity), offsetof(StepBlock, felt_origin));
+    put_step(compute, &block, offsetof(StepBlock, gravity), offsetof(StepBlock, apparent_origin));
 }
 
 void compute_set_force(Compute *compute, const PassInput *input)
 {
     StepBlock block = {0};
-    copy3(input->apparent->origin, block.felt_origin);
-    copy3(input->apparent->alpha, block.felt_alpha);
-    copy3(input->apparent->omega, block.felt_omega);
+    copy3(input->apparent->origin, block.apparent_origin);
+    copy3(input->apparent->alpha, block.apparent_alpha);
+    copy3(input->apparent->omega, block.apparent_omega);
     copy3(input->gravity, block.kick_gravity);
-    put_step(compute, &block, offsetof(StepBlock, felt_origin), sizeof block);
+    put_step(compute, &block, offsetof(StepBlock, apparent_origin), sizeof block);
 }

@@ -1,79 +1,15 @@
-/* Passes find the state's buffers by the names of storage blocks: a block declared in a shader is bound at
-   its declared binding. */
 #include "sim/gpu/compute/compute.h"
 
 #include "shaders/sim/bindings.h"
+#include "sim/gpu/gl.h"
 #include "sim/gpu/packing.h"
-#include "sim/step/backend_sums.h"
+#include "sim/step/backend.h"
 
 #include <epoxy/gl.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const struct {
-    const char *block;
-    size_t at; /* offset of the buffer's name in Compute */
-} named[COMPUTE_NAMED] = {
-    {"Positions", offsetof(Compute, now.position)},
-    {"Velocities", offsetof(Compute, now.velocity)},
-    {"Names", offsetof(Compute, now.name)},
-    {"Pressures", offsetof(Compute, pressure)},
-    {"Near", offsetof(Compute, near)},
-    {"Accelerations", offsetof(Compute, acceleration)},
-    {"Own", offsetof(Compute, now.own)},
-    {"Scratch", offsetof(Compute, scratch)},
-    {"Starts", offsetof(Compute, start)},
-    {"Lists", offsetof(Compute, lists)},
-    {"DragTables", offsetof(Compute, drag)},
-    {"WatchBlock", offsetof(Compute, watch.buffer)},
-    {"Felt", offsetof(Compute, felt.buffer)},
-    {"SolveBlock", offsetof(Compute, solve.buffer)},
-    {"Rests", offsetof(Compute, boundary.rest)},
-    {"BoundaryPositions", offsetof(Compute, boundary.position)},
-    {"BoundaryVelocities", offsetof(Compute, boundary.velocity)},
-    {"BoundaryStates", offsetof(Compute, boundary.state)},
-    {"BoundaryStarts", offsetof(Compute, boundary.start)},
-};
-
-static int binding_of(GLuint program, const char *block)
-{
-    const GLuint at = glGetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, block);
-    const GLenum what = GL_BUFFER_BINDING;
-    GLint binding = -1;
-    if (at != GL_INVALID_INDEX)
-        glGetProgramResourceiv(program, GL_SHADER_STORAGE_BLOCK, at, 1, &what, 1, NULL, &binding);
-    return binding;
-}
-
-void compute_find_buffers(Compute *c, ComputePass pass)
-{
-    const GLuint program = c->program[pass];
-    c->takes_dt[pass] = program && glGetUniformLocation(program, "dt") >= 0;
-    for (int k = 0; k < COMPUTE_NAMED; k++)
-        c->bindings[pass][k] = (int8_t)(program ? binding_of(program, named[k].block) : -1);
-    for (int k = 0; k < COMPUTE_BUFFERS; k++) {
-        const ShaderBuffer *own = compute_buffer_at(c->constants, k);
-        c->bindings[pass][COMPUTE_NAMED + k] =
-            (int8_t)(program && own ? binding_of(program, own->block) : -1);
-    }
-}
-
-static void bind(int binding, unsigned buffer)
-{
-    if (binding >= 0 && buffer)
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, (GLuint)binding, buffer);
-}
-
-void compute_sweep(const Compute *c, ComputePass pass, size_t count)
-{
-    compute_boundary_bind(c);
-    for (int k = 0; k < COMPUTE_NAMED; k++)
-        bind(c->bindings[pass][k], *(const unsigned *)(const void *)((const char *)c + named[k].at));
-    for (int k = 0; k < COMPUTE_BUFFERS; k++)
-        bind(c->bindings[pass][COMPUTE_NAMED + k], c->of_shaders[k]);
-    compute_run(c, pass, count);
-}
 
 /* Columns kept per particle by a method and by terms of the scene: a storage buffer with all columns in
    sequence, each with room for `capacity` numbers. A second buffer holds the shaders' scratch. Read by
@@ -82,15 +18,6 @@ void compute_sweep(const Compute *c, ComputePass pass, size_t count)
 static bool kept(const ColumnDef *column)
 {
     return column_own(column) >= 0 && column->flags & (COLUMN_SAVED | COLUMN_SORTED);
-}
-
-size_t compute_scratch_place(const Compute *c, const ColumnDef *column)
-{
-    const ComputeScratch scratch = compute_scratch_of(c->constants);
-    size_t place = 0;
-    for (int k = 0; scratch.row[k] != column; k++)
-        place += (size_t)scratch.row[k]->components * c->capacity;
-    return place;
 }
 
 /* The buffer never shrinks: older programs, with more columns, may still use it. */
@@ -228,6 +155,7 @@ static void compute_own_copy(const Compute *c, unsigned from, unsigned to)
 
 void compute_own_copy_one(const Compute *c, int k, unsigned to)
 {
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     if (c->count > 0)
         glCopyNamedBufferSubData(c->now.own, to, place_of(c, k, 0), 0, (GLsizeiptr)(4 * c->count));
 }
@@ -238,19 +166,19 @@ void compute_own_clear(const Compute *c, size_t first, size_t count)
         clear_one(c, k, first, count);
 }
 
-void compute_own_move(const Compute *c, unsigned order)
+void compute_own_move(Compute *c, unsigned order)
 {
     if (c->own.count == 0)
         return;
-    BIND([ORDERS_BUFFER] = order, [OLD_OWN_BUFFER] = c->now.own, [OWN_BUFFER] = c->spare.own);
+    BIND(c, [ORDERS_BUFFER] = order, [OLD_OWN_BUFFER] = c->now.own, [OWN_BUFFER] = c->spare.own);
     compute_run(c, COMPUTE_OWN_MOVE, c->count);
 }
 
-void compute_own_gather(const Compute *c, unsigned marks)
+void compute_own_gather(Compute *c, unsigned marks)
 {
     if (c->own.count == 0)
         return;
-    BIND([MARKS_BUFFER] = marks, [OLD_OWN_BUFFER] = c->now.own, [OWN_BUFFER] = c->spare.own);
+    BIND(c, [MARKS_BUFFER] = marks, [OLD_OWN_BUFFER] = c->now.own, [OWN_BUFFER] = c->spare.own);
     compute_run(c, COMPUTE_OWN_GATHER, c->count);
 }
 
@@ -260,17 +188,17 @@ enum { POSITION = 1, VELOCITY, NAME, MOVED, PRESSURE = MOVED, BUFFERS };
 
 #define AT(member) offsetof(ParticleColumns, member)
 
-static const Packing packing = {.words = {[POSITION] = 4, [VELOCITY] = 4, [NAME] = 2, [PRESSURE] = 2},
-                                .column = {
-                                    {POSITION, 0, AT(x), COLUMN_FLOAT},
-                                    {POSITION, 3, AT(volume), COLUMN_FLOAT},
-                                    {VELOCITY, 0, AT(vx), COLUMN_FLOAT},
-                                    {VELOCITY, 3, AT(compression), COLUMN_FLOAT},
-                                    {NAME, 0, AT(id), COLUMN_INDEX},
-                                    {NAME, 1, AT(fluid), COLUMN_INDEX},
-                                    {PRESSURE, 0, AT(pressure), COLUMN_FLOAT},
-                                    {PRESSURE, 1, AT(pressure_term), COLUMN_FLOAT},
-                                }};
+static const ColumnPacking packing = {.words = {[POSITION] = 4, [VELOCITY] = 4, [NAME] = 2, [PRESSURE] = 2},
+                                      .column = {
+                                          {POSITION, 0, AT(x), COLUMN_FLOAT},
+                                          {POSITION, 3, AT(volume), COLUMN_FLOAT},
+                                          {VELOCITY, 0, AT(vx), COLUMN_FLOAT},
+                                          {VELOCITY, 3, AT(compression), COLUMN_FLOAT},
+                                          {NAME, 0, AT(id), COLUMN_INDEX},
+                                          {NAME, 1, AT(fluid), COLUMN_INDEX},
+                                          {PRESSURE, 0, AT(pressure), COLUMN_FLOAT},
+                                          {PRESSURE, 1, AT(pressure_term), COLUMN_FLOAT},
+                                      }};
 
 /* Buffers moved by the sort: from POSITION to before MOVED. */
 static const struct {
@@ -317,6 +245,7 @@ void compute_particles_destroy(ComputeParticles *particles)
 
 void compute_particles_copy(const Compute *c, ComputeParticles from, ComputeParticles to)
 {
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     for (int b = POSITION; b < MOVED; b++)
         glCopyNamedBufferSubData(*moved_in(&from, b), *moved_in(&to, b), 0, 0,
                                  (GLsizeiptr)(entry_bytes(b) * c->count));
@@ -334,6 +263,7 @@ void compute_swap(Compute *c)
 /* Uploads columns; volumes and missing columns become 0. */
 static void upload(const Compute *c, const ParticleColumns *from, uint32_t *entries)
 {
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     for (int b = POSITION; b < MOVED; b++) {
         memset(entries, 0, entry_bytes(b) * c->count);
         packing_pack(&packing, b, c->constants->method, from, c->count, NULL, entries);
@@ -381,6 +311,16 @@ bool compute_download(const Compute *c, ParticleColumns *columns)
     return done;
 }
 
+void compute_watch_reset(Compute *c, size_t guarded)
+{
+    glClearNamedBufferData(c->watch.buffer, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    mailbox_forget(&c->watch);
+    c->watch_due = false;
+    c->longest = 0;
+    c->guarded_before = guarded;
+    c->guarded = 0;
+}
+
 bool compute_set_particles(Compute *c, const InitialState *initial)
 {
     const ColumnRows rows = rows_of(c);
@@ -417,4 +357,54 @@ bool compute_load(void *state, const ParticleColumns *from, size_t count, size_t
     free(entries);
     compute_watch_reset(c, guarded);
     return true;
+}
+
+/* Neighbour lists, made by the first pass of a step for later passes: shaders/sim/lists.glsl. Without a
+   free binding or memory, and with periodic sides, each pass walks the cells. Lists take at most a quarter
+   of the memory: the views need some, and a driver may promise more memory than there is. */
+
+/* List size: half more than the lattice has within the support, plus 8, since moving fluid is locally
+   denser. */
+static size_t list_most(const Constants *s)
+{
+    const double r = (double)s->support_radius / (double)s->spacing, pi = 3.14159265358979;
+    const double lattice = s->dimensions == 2 ? pi * r * r : 4.0 / 3.0 * pi * r * r * r;
+    return 8 * (size_t)ceil((1.5 * lattice + 8) / 8);
+}
+
+/* Rounded up to blocks of 32 particles. */
+static size_t stride_of(const Compute *c)
+{
+    return (c->capacity + 31) / 32 * 32;
+}
+
+/* True if the driver has enough bindings and blocks: solids and a method's columns need some beside the
+   usual eight. */
+static bool bound(const Compute *c, const GlLimits *have)
+{
+    const int columns = (c->own.count > 0) + (compute_scratch_of(c->constants).total > 0);
+    return !c->constants->periodic.any && have->bindings > LISTS_BUFFER &&
+           have->compute_blocks >= 8 + columns + (c->constants->solid_count > 0 ? 5 : 0);
+}
+
+void compute_lists_create(Compute *c)
+{
+    const GlLimits have = gl_limits();
+    const size_t most = list_most(c->constants), bytes = 4 * (most + 1) * stride_of(c);
+    if (c->full || !bound(c, &have))
+        return;
+    if ((int64_t)bytes <= have.block_bytes && (double)bytes <= 0.25 * gl_memory())
+        c->lists = compute_buffer(c, "lists of neighbours", bytes);
+    c->list_most = most;
+    c->full = false;
+    c->unlisted = c->lists ? 0 : bytes;
+}
+
+void compute_list_defines(const Compute *c, char out[COMPUTE_DEFINES_MAX])
+{
+    const size_t used = strlen(out);
+    if (c->lists)
+        snprintf(out + used, COMPUTE_DEFINES_MAX - used,
+                 "#define LISTS 1\n#define LIST_MOST %zuu\n#define LIST_STRIDE %zuu\n#define LIST_RUN %uu\n",
+                 c->list_most, stride_of(c), gl_renderer_is_software() ? 1U : 4U);
 }

@@ -5,7 +5,6 @@
 
 #include "sim/gpu/particle_buffers.h"
 #include "sim/step/backend.h"
-#include "sim/step/cells.h"
 
 enum {
     COMPUTE_SCAN_LEVELS = 3,
@@ -16,6 +15,7 @@ enum {
     COMPUTE_EXCESS_GROUPS = 64, /* number of groups summed by decide.comp */
     COMPUTE_ALONG = 65535,      /* work groups per row */
     COMPUTE_NAMED = 19,
+    COMPUTE_BINDINGS = 32,                    /* more than shaders/sim/bindings.h and the methods have */
     COMPUTE_BUFFERS = METHOD_BUFFERS_MAX + 4, /* of the method, and a buffer per term */
     COMPUTE_DEFINES_MAX = 4096
 };
@@ -56,6 +56,7 @@ typedef struct ComputeScratch {
     X(SORT, "compute/sort")                                                                                  \
     X(MOVE, "compute/move")                                                                                  \
     X(KICK, "compute/kick")                                                                                  \
+    X(FORCES_SUM, "compute/forces_sum")                                                                      \
     X(TOUCH, "compute/touch")                                                                                \
     X(GAUGE, "compute/gauge")                                                                                \
     X(ENERGY, "compute/energy")                                                                              \
@@ -78,9 +79,9 @@ typedef enum ComputePass {
 #define X(NAME, name) COMPUTE_##NAME,
     COMPUTE_PASSES(X)
 #undef X
-        COMPUTE_METHOD,                 /* the method's passes, then the terms' passes */
-    COMPUTE_FELT = COMPUTE_METHOD + 24, /* forces of these passes on solids, in the same order */
-    COMPUTE_PASS_COUNT = COMPUTE_FELT + 24
+        COMPUTE_METHOD,                   /* the method's passes, then the terms' passes */
+    COMPUTE_FORCES = COMPUTE_METHOD + 24, /* forces of these passes on solids, in the same order */
+    COMPUTE_PASS_COUNT = COMPUTE_FORCES + 24
 } ComputePass;
 
 /* Boundary particles of solids; all 0 without solids. */
@@ -105,11 +106,20 @@ typedef struct ComputeFlow {
 } ComputeFlow;
 
 /* Forces on box and solids; no buffers before a request. */
-typedef struct ComputeFelt {
-    unsigned buffer, marked; /* FeltPart: shaders/sim/felt.glsl; at the state marked by the sentinel */
+typedef struct ComputeForces {
+    unsigned buffer, marked; /* ForcePart: shaders/sim/forces.glsl; at the state marked by the sentinel */
+    Mailbox sums;            /* ForceSum of the box and of each solid */
     double seconds, seconds_marked;
     struct Forces *to; /* NULL: not requested */
-} ComputeFelt;
+} ComputeForces;
+
+/* The context's bindings, to leave out repeated calls. Known within a step only: between steps, pictures and
+   other worlds bind as well. */
+typedef struct ComputeBound {
+    bool known;            /* between compute_enter and compute_leave */
+    bool blocks, boundary; /* uniform blocks of all passes; those of solids */
+    unsigned program, storage[COMPUTE_BINDINGS];
+} ComputeBound;
 
 typedef struct Compute {
     const Constants *constants;
@@ -141,9 +151,10 @@ typedef struct Compute {
     Mailbox gauge;                        /* GaugePart per group; none before the first `gauge` */
     Mailbox energy;                       /* energy.comp: sums per group; none before the first */
     size_t gauged;                        /* particles in the last gauge */
-    ComputeFelt felt;
+    ComputeForces forces;
     unsigned shown[COMPUTE_SHOWN]; /* for the views: uint or float; 0 before the first request */
     unsigned constant_block, step; /* uniform blocks */
+    ComputeBound bound;
     unsigned program[COMPUTE_PASS_COUNT];
     bool takes_dt[COMPUTE_PASS_COUNT];
     /* Bindings of buffers found by name, the method's last; -1: none. */
@@ -160,10 +171,18 @@ typedef struct Compute {
 /* Compiles a pass with the lines `defines` before its source; 0 with the reason. */
 unsigned compute_program(const Compute *compute, ComputePass pass, const char *defines, Error *error);
 
-/* with_terms.c. compute_pass_at: the k-th of the method's passes, then of the terms' passes (`of`: the
-   term, else NULL); NULL after the last. compute_pass_needed: true if the scene needs the pass.
-   compute_method_pass: number of a pass. */
+/* Recompiles all passes, or the selected passes, without terms that the scene does not name. On failure the
+   old programs stay. compute_all_defines: the lines before the sources, as the state is now. */
+bool compute_programs_create(Compute *compute, Error *error);
+bool compute_programs(Compute *compute, bool (*which)(ComputePass pass), Error *error);
+void compute_all_defines(const Compute *compute, char out[COMPUTE_DEFINES_MAX]);
+
+/* Passes of the method, then of the terms. compute_pass_at: number k of these passes (`of`: its term, else
+   NULL); NULL after the last. compute_pass_needed: true if the scene needs pass number k. compute_iterates:
+   true if a pass of the scene iterates. compute_method_pass: the pass as a ComputePass. */
 const Pass *compute_pass_at(const Method *method, int k, const Term **of);
+bool compute_pass_needed(const Constants *constants, int k);
+bool compute_iterates(const Constants *constants);
 ComputePass compute_method_pass(const Compute *compute, const Pass *pass);
 
 /* Number k of the COMPUTE_BUFFERS found by name in shaders; NULL: none. */
@@ -174,7 +193,7 @@ ComputeScratch compute_scratch_of(const Constants *constants);
 /* A zeroed storage buffer of `bytes`; 0 if memory is short, and sets `full`. */
 unsigned compute_buffer(Compute *compute, const char *label, size_t bytes);
 
-/* particles.c. Return false with the reason. */
+/* Return false with the reason. */
 bool compute_particles_create(Compute *compute, ComputeParticles *particles, Error *error);
 void compute_particles_destroy(ComputeParticles *particles);
 void compute_particles_copy(const Compute *compute, ComputeParticles from, ComputeParticles to);
@@ -182,32 +201,30 @@ void compute_particles_copy(const Compute *compute, ComputeParticles from, Compu
 /* Downloads the particles to columns; free with columns_destroy. Returns false if memory is short. */
 bool compute_download(const Compute *compute, ParticleColumns *columns);
 
-/* own.c: a buffer for scratch. Returns false if memory is short. */
+/* A buffer for scratch. Returns false if memory is short. */
 bool compute_scratch_fit(Compute *compute);
 
 /* Index of a column's first number in scratch. */
 size_t compute_scratch_place(const Compute *compute, const ColumnDef *column);
 
-/* Recompiles the selected passes, without terms that the scene does not name. On failure the old programs
-   stay. */
-bool compute_programs(Compute *compute, bool (*which)(ComputePass pass), Error *error);
+/* Forces on box and solids. compute_changes_with_forces: true for passes that change with a request for
+   forces. compute_group_parts: parts of all work groups, of each group a part for the box and each solid.
+   compute_add_solid_forces: adds forces on solids of a pass over dt (s). _mark and _back: save and restore
+   the sums with the particles. */
+bool compute_changes_with_forces(ComputePass pass);
+size_t compute_group_parts(const Compute *compute);
+void compute_add_solid_forces(Compute *compute, const Pass *pass, float dt);
+void compute_forces_mark(Compute *compute);
+void compute_forces_back(Compute *compute);
 
-/* forces.c. compute_feels: true for passes that change with a request for forces. compute_felt_defines:
-   their lines. compute_feel_solids: adds forces on solids of a pass over dt (s). _mark and _back: save and
-   restore the sums with the particles. */
-bool compute_feels(ComputePass pass);
-void compute_felt_defines(const Compute *compute, ComputePass pass, char out[COMPUTE_DEFINES_MAX]);
-void compute_feel_solids(Compute *compute, const Pass *pass, float dt);
-void compute_felt_mark(Compute *compute);
-void compute_felt_back(Compute *compute);
-
+/* Creates missing buffers of iterating solvers. Returns false if memory is short. */
 bool compute_iterate_fit(Compute *compute);
 
-/* lists.c: neighbour lists if the driver supports them; lines for the shaders. */
+/* Neighbour lists if the driver supports them; lines for the shaders. */
 void compute_lists_create(Compute *compute);
 void compute_list_defines(const Compute *compute, char out[COMPUTE_DEFINES_MAX]);
 
-/* own.c: nothing to do for a method without own columns. _defines: lines for the shaders after
+/* Columns of the method: nothing to do for a method without. _defines: lines for the shaders after
    compute_defines. _upload, _download: from and to plain arrays, NULL arrays skipped. _copy: to another
    buffer. _clear: 0 for `count` particles. _move, _gather: from `now` to `spare`, reordered or without
    drained particles. */
@@ -217,36 +234,38 @@ void compute_own_defines(const Compute *compute, char out[COMPUTE_DEFINES_MAX]);
 void compute_own_copy_one(const Compute *compute, int k, unsigned to); /* the k-th component, to a buffer's
                                                                           begin */
 void compute_own_clear(const Compute *compute, size_t first, size_t count);
-void compute_own_move(const Compute *compute, unsigned order);
-void compute_own_gather(const Compute *compute, unsigned marks);
+void compute_own_move(Compute *compute, unsigned order);
+void compute_own_gather(Compute *compute, unsigned marks);
 
 /* Sets the error; returns false. */
 bool compute_no_memory(const Compute *compute, Error *error);
 
-/* _note: call after a kick of dt, s. _send: starts the transfer of the kicks' findings since the last send;
-   once per frame, before pictures, to avoid waiting for them. */
+/* Call after a kick of dt, s. */
 void compute_watch_note(Compute *compute, float dt);
 
 /* Restarts the watch, with `guarded` counts before. */
 void compute_watch_reset(Compute *compute, size_t guarded);
 
-/* Runs an invocation per particle, or `count` invocations, then a storage barrier. */
-void compute_run(const Compute *compute, ComputePass pass, size_t count);
+/* Runs an invocation per particle, or `count` invocations. A barrier follows for reads by the next passes: of
+   storage, and of the watch after passes that write the watch. Clears, copies, writes and reads of buffers
+   need a barrier by the caller. */
+void compute_run(Compute *compute, ComputePass pass, size_t count);
 
 /* _find_buffers: finds a program's bindings of the state's buffers, by names of storage blocks. _sweep:
    binds these buffers and runs a pass over `count` particles. */
 void compute_find_buffers(Compute *compute, ComputePass pass);
-void compute_sweep(const Compute *compute, ComputePass pass, size_t count);
+void compute_sweep(Compute *compute, ComputePass pass, size_t count);
 
-/* Dispatches work groups in rows: shaders/sim/constants.glsl. */
-void compute_dispatch(size_t groups);
-
-/* Binds buffers to storage bindings 0, 1, ...; 0 leaves a binding unchanged. BIND([NUMBER] = buffer, ...)
+/* Binds buffers to storage bindings 0, 1, ...; 0 leaves a binding unchanged. BIND(c, [NUMBER] = buffer, ...)
    uses the numbers of shaders/sim/bindings.h. */
-void compute_bind(const unsigned *buffers, int count);
-#define BIND(...)                                                                                            \
-    compute_bind((const unsigned[]){__VA_ARGS__},                                                            \
+void compute_bind(Compute *compute, const unsigned *buffers, int count);
+#define BIND(compute, ...)                                                                                   \
+    compute_bind(compute, (const unsigned[]){__VA_ARGS__},                                                   \
                  (int)(sizeof((const unsigned[]){__VA_ARGS__}) / sizeof(unsigned)))
+
+/* Around the passes of a step. */
+void compute_enter(void *state);
+void compute_leave(void *state);
 
 /* Sets the number of particles. */
 void compute_set_count(Compute *compute, size_t count);
@@ -254,7 +273,7 @@ void compute_set_count(Compute *compute, size_t count);
 /* Swaps `now` and `spare`. */
 void compute_swap(Compute *compute);
 
-/* terms.c. _defines: lines before the shaders (numbers of scalars, terms of the scene). _pass_named: true
+/* _defines: lines before the shaders (numbers of scalars, terms of the scene). _pass_named: true
    if the scene needs a pass. _term_buffers: creates missing buffers of terms. _term_constants: the uniform
    block of terms. */
 void compute_defines(const Constants *constants, char out[COMPUTE_DEFINES_MAX]);
@@ -272,19 +291,19 @@ void compute_set_kick(Compute *compute, const float gravity[3], float dt);
 /* Exclusive prefix sums of the first `size` numbers of a buffer, in place. */
 void compute_scan(Compute *compute, unsigned buffer, size_t size);
 
-/* boundary.c: nothing to do without solids. Returns false if memory is short. */
+/* Boundary particles: nothing to do without solids. Returns false if memory is short. */
 bool compute_boundary_create(Compute *compute);
 void compute_boundary_destroy(Compute *compute);
-void compute_boundary_bind(const Compute *compute);
+void compute_boundary_bind(Compute *compute);
 
-/* meshes.c: nothing to do without meshes. Returns false with the error if the driver's textures are too
+/* Meshes: nothing to do without meshes. Returns false with the error if the driver's textures are too
    small for the distances. */
 bool compute_meshes_create(Compute *compute, Error *error);
 void compute_meshes_destroy(Compute *compute);
 
 void compute_boundary_move(Compute *compute, const SolidStep *steps);
 void compute_boundary_grid(Compute *compute); /* sorts boundary particles after a move */
-void compute_boundary_fill(const Compute *compute);
+void compute_boundary_fill(Compute *compute);
 
 void compute_flow_create(Compute *compute);
 void compute_flow_destroy(Compute *compute);
@@ -294,14 +313,17 @@ size_t compute_emit(void *state, const EmitLayer *layer, size_t most);
 double compute_guide(void *state, const Guide *guides, int count);
 size_t compute_drain(void *state, const Fill *regions, int count);
 void compute_grid(void *state);
+void compute_drift(void *state, const BoxStep *step);
 void compute_pass(void *state, const Pass *pass, const PassInput *input);
 void compute_iterate(void *state, const struct Iteration *iteration, const PassInput *input,
                      StepSolve *solve);
+void compute_kick(void *state, const float gravity[3], float dt);
+void compute_touch(void *state, const FingerStep *finger);
 StepWatch compute_watch(void *state);
 bool compute_mark(void *state, Error *error);
 void compute_back(void *state, size_t count, size_t guarded);
-bool compute_feel(void *state, struct Forces *to, Error *error);
-bool compute_felt(void *state);
+bool compute_enable_forces(void *state, struct Forces *to, Error *error);
+bool compute_forces_ready(void *state);
 void compute_share(void *state, unsigned attributes, struct ParticleBuffers *out);
 void compute_sums(void *state, WorldSums *sums);
 bool compute_read(void *state, const ParticleArrays *out);

@@ -66,11 +66,11 @@ static size_t emit_part(Compute *c, const EmitLayer *layer, size_t most)
     layer_set(c, layer, most);
     bind_block(c);
     compute_boundary_bind(c);
-    BIND([POSITIONS_BUFFER] = c->now.position, [LAYER_BUFFER] = c->flow.layer, [STARTS_BUFFER] = c->start,
+    BIND(c, [POSITIONS_BUFFER] = c->now.position, [LAYER_BUFFER] = c->flow.layer, [STARTS_BUFFER] = c->start,
          [MARKS_BUFFER] = c->flow.marks);
     compute_run(c, COMPUTE_EMIT_MARK, layer->count + 1);
     compute_scan(c, c->flow.marks, layer->count + 1);
-    BIND([POSITIONS_BUFFER] = c->now.position, [LAYER_BUFFER] = c->flow.layer,
+    BIND(c, [POSITIONS_BUFFER] = c->now.position, [LAYER_BUFFER] = c->flow.layer,
          [VELOCITIES_BUFFER] = c->now.velocity, [MARKS_BUFFER] = c->flow.marks, [NAMES_BUFFER] = c->now.name);
     compute_run(c, COMPUTE_EMIT_ADD, layer->count);
     const size_t fit = sum_of(c->flow.marks, layer->count), number = fit < most ? fit : most;
@@ -95,7 +95,7 @@ size_t compute_emit(void *state, const EmitLayer *layer, size_t most)
 
 double compute_guide(void *state, const Guide *guides, int count)
 {
-    const Compute *c = state;
+    Compute *c = state;
     FlowBlock block = {.guide_total = count};
     for (int k = 0; k < count; k++) {
         Course *course = &block.guides[k];
@@ -147,14 +147,14 @@ size_t compute_drain(void *state, const Fill *regions, int count)
         return 0;
     drains_set(c, regions, count);
     bind_block(c);
-    BIND([POSITIONS_BUFFER] = c->now.position, [MARKS_BUFFER] =
-                                                   c->order); /* `order` is free until the next grid */
+    BIND(c, [POSITIONS_BUFFER] = c->now.position, [MARKS_BUFFER] = c->order); /* `order` is free until the
+                                                                                 next grid */
     compute_run(c, COMPUTE_DRAIN_MARK, c->count + 1);
     compute_scan(c, c->order, c->count + 1);
     const size_t stay = sum_of(c->order, c->count), gone = c->count - stay;
     if (gone == 0)
         return 0;
-    BIND([MARKS_BUFFER] = c->order, [OLD_POSITIONS_BUFFER] = c->now.position,
+    BIND(c, [MARKS_BUFFER] = c->order, [OLD_POSITIONS_BUFFER] = c->now.position,
          [OLD_VELOCITIES_BUFFER] = c->now.velocity, [OLD_NAMES_BUFFER] = c->now.name,
          [POSITIONS_BUFFER] = c->spare.position, [VELOCITIES_BUFFER] = c->spare.velocity,
          [NAMES_BUFFER] = c->spare.name);

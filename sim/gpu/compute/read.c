@@ -5,8 +5,7 @@
 #include "shaders/sim/gauge_part.h"
 #include "shaders/sim/watch_block.h"
 #include "sim/gpu/particle_buffers.h"
-#include "sim/step/backend_sums.h"
-#include "sim/step/cells.h"
+#include "sim/step/backend.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -99,7 +98,7 @@ static ParticleAttribute show(Compute *c, int what)
         c->full = false;
         return (ParticleAttribute){0};
     }
-    BIND([POSITIONS_BUFFER] = c->now.position, [VELOCITIES_BUFFER] = c->now.velocity,
+    BIND(c, [POSITIONS_BUFFER] = c->now.position, [VELOCITIES_BUFFER] = c->now.velocity,
          [NAMES_BUFFER] = c->now.name, [PRESSURES_BUFFER] = c->pressure, [VALUES_BUFFER] = c->shown[what]);
     glProgramUniform1i(c->program[COMPUTE_SHOW], SHOWN_SCALAR_AT, what);
     compute_run(c, COMPUTE_SHOW, c->count);
@@ -161,7 +160,7 @@ static bool prepare(Compute *c, Mailbox *mailbox, ComputePass pass, const char *
 /* Sums over the particles, into the mailbox. */
 static void add_up(Compute *c, Mailbox *mailbox, ComputePass pass)
 {
-    BIND([POSITIONS_BUFFER] = c->now.position, [VELOCITIES_BUFFER] = c->now.velocity,
+    BIND(c, [POSITIONS_BUFFER] = c->now.position, [VELOCITIES_BUFFER] = c->now.velocity,
          [NAMES_BUFFER] = c->now.name, [PARTS_BUFFER] = mailbox->buffer);
     compute_run(c, pass, (size_t)COMPUTE_GAUGE_GROUPS * COMPUTE_GROUP);
     mailbox_send(mailbox);
@@ -242,16 +241,6 @@ static void compute_watch_send(Compute *c)
     c->watch_due = false;
 }
 
-void compute_watch_reset(Compute *c, size_t guarded)
-{
-    glClearNamedBufferData(c->watch.buffer, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
-    mailbox_forget(&c->watch);
-    c->watch_due = false;
-    c->longest = 0;
-    c->guarded_before = guarded;
-    c->guarded = 0;
-}
-
 StepWatch compute_watch(void *state)
 {
     Compute *c = state;
@@ -284,7 +273,7 @@ bool compute_mark(void *state, Error *error)
         return c->full = false;
     }
     compute_particles_copy(c, c->now, c->marked);
-    compute_felt_mark(c);
+    compute_forces_mark(c);
     return true;
 }
 
@@ -293,6 +282,6 @@ void compute_back(void *state, size_t count, size_t guarded)
     Compute *c = state;
     compute_set_count(c, count);
     compute_particles_copy(c, c->marked, c->now);
-    compute_felt_back(c);
+    compute_forces_back(c);
     compute_watch_reset(c, guarded);
 }

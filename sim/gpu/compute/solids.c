@@ -3,14 +3,13 @@
 
 #include "shaders/sim/bindings.h"
 #include "shaders/sim/exact_shapes_block.h"
-#include "shaders/sim/felt_part.h"
+#include "shaders/sim/force_part.h"
 #include "shaders/sim/mesh_block.h"
 #include "shaders/sim/solid_steps_block.h"
 #include "sim/mesh/mesh_shape.h"
 #include "slosh/world.h"
 
 #include <epoxy/gl.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -99,14 +98,6 @@ void compute_meshes_destroy(Compute *c)
     const GLuint buffers[] = {c->meshes.block, c->meshes.values};
     glDeleteTextures(1, &c->meshes.texture);
     glDeleteBuffers(2, buffers);
-}
-
-static void compute_meshes_bind(const Compute *c)
-{
-    if (!c->meshes.texture)
-        return;
-    glBindBufferBase(GL_UNIFORM_BUFFER, MESH_BLOCK, c->meshes.block);
-    glBindTextureUnit(MESH_VALUES_TEXTURE, c->meshes.texture);
 }
 
 /* Solids: poses and boundary particles, sorted in a separate grid, so that the fluids' buffers hold fluid
@@ -212,18 +203,6 @@ void compute_boundary_destroy(Compute *c)
     glDeleteBuffers(sizeof buffers / sizeof *buffers, buffers);
 }
 
-void compute_boundary_bind(const Compute *c)
-{
-    const ComputeBoundary *b = &c->boundary;
-    if (c->constants->solid_count == 0)
-        return;
-    glBindBufferBase(GL_UNIFORM_BUFFER, SOLID_STEPS_BLOCK, b->block);
-    glBindBufferBase(GL_UNIFORM_BUFFER, EXACT_SHAPES_BLOCK, b->exact);
-    compute_meshes_bind(c);
-    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, BOUNDARY_POSITIONS_BUFFER, 4,
-                      (const GLuint[]){b->position, b->velocity, b->state, b->start});
-}
-
 void compute_pose(void *state, const SolidPose *pose)
 {
     Compute *c = state;
@@ -255,53 +234,33 @@ void compute_boundary_grid(Compute *c)
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glClearNamedBufferData(b->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     compute_boundary_bind(c);
-    BIND([RESTS_BUFFER] = b->rest, [CELLS_BUFFER] = b->cell, [RANKS_BUFFER] = b->rank,
+    BIND(c, [RESTS_BUFFER] = b->rest, [CELLS_BUFFER] = b->cell, [RANKS_BUFFER] = b->rank,
          [STARTS_BUFFER] = b->start);
     compute_run(c, COMPUTE_BOUNDARY_BIN, n);
     compute_scan(c, b->start, places + 2);
-    BIND([CELLS_BUFFER] = b->cell, [RANKS_BUFFER] = b->rank, [STARTS_BUFFER] = b->start,
+    BIND(c, [CELLS_BUFFER] = b->cell, [RANKS_BUFFER] = b->rank, [STARTS_BUFFER] = b->start,
          [ORDERS_BUFFER] = b->order);
     compute_run(c, COMPUTE_BOUNDARY_PLACE, n);
-    BIND([RESTS_BUFFER] = b->rest, [ORDERS_BUFFER] = b->order);
+    BIND(c, [RESTS_BUFFER] = b->rest, [ORDERS_BUFFER] = b->order);
     compute_run(c, COMPUTE_BOUNDARY_SORT, places);
 }
 
-void compute_boundary_fill(const Compute *c)
+void compute_boundary_fill(Compute *c)
 {
     compute_sweep(c, COMPUTE_BOUNDARY_FILL, c->constants->boundary.count);
 }
 
-/* Forces on box and solids (include/slosh/world.h): partial sums by passes on the GPU, shaders/sim/felt.glsl,
-   read on request. */
-
-/* Parts of work groups over all particles: per group, for the box and each solid. */
-static size_t group_parts(const Compute *c)
-{
-    return (c->capacity + COMPUTE_GROUP - 1) / COMPUTE_GROUP * (size_t)(1 + c->constants->solid_count);
-}
+/* Forces on box and solids (include/slosh/world.h): partial sums by passes on the GPU,
+   shaders/sim/forces.glsl, read on request. */
 
 static size_t parts(const Compute *c)
 {
-    return group_parts(c) + c->constants->boundary.count;
+    return compute_group_parts(c) + c->constants->boundary.count;
 }
 
 static size_t bytes(const Compute *c)
 {
-    return parts(c) * sizeof(FeltPart);
-}
-
-bool compute_feels(ComputePass pass)
-{
-    return pass == COMPUTE_KICK || pass == COMPUTE_DRIFT || pass >= COMPUTE_FELT;
-}
-
-void compute_felt_defines(const Compute *c, ComputePass pass, char out[COMPUTE_DEFINES_MAX])
-{
-    const size_t used = strlen(out);
-    if (c->felt.to)
-        snprintf(out + used, COMPUTE_DEFINES_MAX - used,
-                 "#define FELT%s 1\n#define FELT_OF_GROUP %du\n#define FELT_BOUNDARY %zuu\n",
-                 pass < COMPUTE_FELT ? "" : "_SOLIDS", 1 + c->constants->solid_count, group_parts(c));
+    return parts(c) * sizeof(ForcePart);
 }
 
 static void clear(unsigned buffer)
@@ -311,97 +270,92 @@ static void clear(unsigned buffer)
 
 static bool prepare(Compute *c)
 {
-    ComputeFelt *felt = &c->felt;
-    if (!felt->buffer)
-        felt->buffer = compute_buffer(c, "what box and solids feel", bytes(c));
-    if (!felt->marked)
-        felt->marked = compute_buffer(c, "what they felt at the mark", bytes(c));
+    ComputeForces *forces = &c->forces;
+    if (!forces->buffer)
+        forces->buffer = compute_buffer(c, "forces on box and solids", bytes(c));
+    if (!forces->marked)
+        forces->marked = compute_buffer(c, "forces at the mark", bytes(c));
+    if (!forces->sums.buffer)
+        mailbox_create(&forces->sums, "sums of forces", (1 + SOLIDS_MAX) * sizeof(ForceSum));
     c->full = false; /* the world can go on without */
-    return felt->buffer && felt->marked;
+    return forces->buffer && forces->marked && forces->sums.mapped;
 }
 
-static void forget(ComputeFelt *felt)
+static void forces_clear(ComputeForces *forces)
 {
-    clear(felt->buffer);
-    clear(felt->marked);
-    felt->seconds = felt->seconds_marked = 0;
+    clear(forces->buffer);
+    clear(forces->marked);
+    forces->seconds = forces->seconds_marked = 0;
 }
 
-bool compute_feel(void *state, Forces *to, Error *error)
+bool compute_enable_forces(void *state, Forces *to, Error *error)
 {
     Compute *c = state;
-    Forces *const before = c->felt.to;
+    Forces *const before = c->forces.to;
     if (to && !prepare(c))
         return error_set(error, "the GPU has no memory to sum forces; use a larger spacing");
     if (to)
-        forget(&c->felt);
-    c->felt.to = to;
-    if (compute_programs(c, compute_feels, error))
+        forces_clear(&c->forces);
+    c->forces.to = to;
+    if (compute_programs(c, compute_changes_with_forces, error))
         return true;
-    c->felt.to = before;
+    c->forces.to = before;
     return false;
 }
 
-void compute_feel_solids(Compute *c, const Pass *pass, float dt)
+void compute_add_solid_forces(Compute *c, const Pass *pass, float dt)
 {
-    const ComputePass at = (ComputePass)(compute_method_pass(c, pass) - COMPUTE_METHOD + COMPUTE_FELT);
-    if (!c->felt.to || !c->program[at] || dt <= 0)
+    const ComputePass at = (ComputePass)(compute_method_pass(c, pass) - COMPUTE_METHOD + COMPUTE_FORCES);
+    if (!c->forces.to || !c->program[at] || dt <= 0)
         return;
-    glProgramUniform1f(c->program[at], FELT_DT_AT, dt);
+    glProgramUniform1f(c->program[at], FORCES_DT_AT, dt);
     compute_sweep(c, at, c->constants->boundary.count);
 }
 
-void compute_felt_mark(Compute *c)
+void compute_forces_mark(Compute *c)
 {
-    ComputeFelt *felt = &c->felt;
-    if (felt->to)
-        glCopyNamedBufferSubData(felt->buffer, felt->marked, 0, 0, (GLsizeiptr)bytes(c));
-    felt->seconds_marked = felt->seconds;
+    ComputeForces *forces = &c->forces;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    if (forces->to)
+        glCopyNamedBufferSubData(forces->buffer, forces->marked, 0, 0, (GLsizeiptr)bytes(c));
+    forces->seconds_marked = forces->seconds;
 }
 
-void compute_felt_back(Compute *c)
+void compute_forces_back(Compute *c)
 {
-    ComputeFelt *felt = &c->felt;
-    if (felt->to)
-        glCopyNamedBufferSubData(felt->marked, felt->buffer, 0, 0, (GLsizeiptr)bytes(c));
-    felt->seconds = felt->seconds_marked;
+    ComputeForces *forces = &c->forces;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    if (forces->to)
+        glCopyNamedBufferSubData(forces->marked, forces->buffer, 0, 0, (GLsizeiptr)bytes(c));
+    forces->seconds = forces->seconds_marked;
 }
 
 /* Forces are in units of the unit volume. */
-static Push push_of(const Compute *c, const float force[3], const float torque[3])
+static void add_sum(const Compute *c, const ForceSum *sum, Push *to)
 {
     const double unit = c->constants->unit_volume;
     Push push;
     for (int k = 0; k < 3; k++) {
-        push.force[k] = unit * (double)force[k];
-        push.torque[k] = unit * (double)torque[k];
+        push.force[k] = unit * ((double)sum->force[k] + (double)sum->force_left[k]);
+        push.torque[k] = unit * ((double)sum->torque[k] + (double)sum->torque_left[k]);
     }
-    return push;
+    push_add(to, 1, &push);
 }
 
-/* Adds all parts. A force on a boundary particle is taken off the box. */
-static void add_up(const Compute *c, const FeltPart *part, Forces *to)
-{
-    const size_t groups = group_parts(c), of_group = 1 + (size_t)c->constants->solid_count;
-    for (size_t k = 0; k < parts(c); k++, part++) {
-        const Push push = push_of(c, part->force, part->torque), about = push_of(c, part->force, part->about);
-        const size_t which = k < groups ? k % of_group : 1 + (size_t)c->constants->boundary.solid[k - groups];
-        push_add(which > 0 ? &to->solid[which - 1] : &to->box, 1, &push);
-        if (k >= groups)
-            push_add(&to->box, -1, &about);
-    }
-}
-
-bool compute_felt(void *state)
+bool compute_forces_ready(void *state)
 {
     Compute *c = state;
-    FeltPart *all = c->felt.to ? malloc(bytes(c)) : NULL;
-    if (!all)
-        return !c->felt.to;
-    glGetNamedBufferSubData(c->felt.buffer, 0, (GLsizeiptr)bytes(c), all);
-    add_up(c, all, c->felt.to);
-    c->felt.to->seconds += c->felt.seconds;
-    free(all);
-    forget(&c->felt);
-    return true;
+    ComputeForces *forces = &c->forces;
+    if (!forces->to)
+        return true;
+    BIND(c, [FORCES_BUFFER] = forces->buffer, [FORCES_RESTS_BUFFER] = c->boundary.rest,
+         [FORCE_SUMS_BUFFER] = forces->sums.buffer);
+    compute_run(c, COMPUTE_FORCES_SUM, (size_t)(1 + c->constants->solid_count) * COMPUTE_GROUP);
+    mailbox_send(&forces->sums);
+    forces->to->seconds += forces->seconds;
+    forces_clear(forces);
+    const ForceSum *sum = mailbox_wait(&forces->sums);
+    for (int k = 0; sum && k <= c->constants->solid_count; k++)
+        add_sum(c, &sum[k], k > 0 ? &forces->to->solid[k - 1] : &forces->to->box);
+    return sum != NULL;
 }

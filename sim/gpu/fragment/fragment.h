@@ -9,7 +9,7 @@
 #ifndef SIM_GPU_FRAGMENT_FRAGMENT_H
 #define SIM_GPU_FRAGMENT_FRAGMENT_H
 
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 #include "sim/gpu/particle_buffers.h"
 #include "sim/step/backend.h"
 
@@ -75,9 +75,9 @@ typedef enum FragmentPass {
     X(still)                                                                                                 \
     X(layer)                                                                                                 \
     X(placeless)                                                                                             \
-    X(felt_origin)                                                                                           \
-    X(felt_alpha)                                                                                            \
-    X(felt_omega)                                                                                            \
+    X(apparent_origin)                                                                                       \
+    X(apparent_alpha)                                                                                        \
+    X(apparent_omega)                                                                                        \
     X(gravity)                                                                                               \
     X(which)                                                                                                 \
     X(scalar)                                                                                                \
@@ -145,7 +145,7 @@ typedef struct Fragment {
     Mailbox gauge;                                                          /* 5 float: see gauge.frag */
     Mailbox energy;                                                         /* vec4 each: see energy.frag */
     unsigned framebuffer, bucket_framebuffer[FRAGMENT_LAYERS_MOST], vertex_array;
-    GlState kept; /* the caller's state, while passes run */
+    GlState caller_state; /* the caller's state, while passes run */
     unsigned program[FRAGMENT_PASS_COUNT];
     int uniform[FRAGMENT_PASS_COUNT][FRAGMENT_UNIFORM_COUNT]; /* locations; -1: none */
     char constant_lines[FRAGMENT_CONSTANTS_MAX];              /* used to compile the programs */
@@ -199,6 +199,7 @@ void fragment_swap(unsigned pair[2]);
    per frame, before pictures. _reset: forgets all findings, with `guarded` counts before. */
 void fragment_watch_gather(Fragment *fragment, const float gravity[3], float dt);
 void fragment_watch_reset(Fragment *fragment, size_t guarded);
+void fragment_watch_forget(Fragment *f); /* what the watch has seen since it was read */
 
 /* Returns false if memory is short. */
 bool fragment_set_particles(Fragment *fragment, const InitialState *initial);

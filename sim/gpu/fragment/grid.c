@@ -67,7 +67,7 @@ static void fill_layers(const Fragment *f)
 void fragment_grid(void *state)
 {
     Fragment *f = state;
-    gl_state_keep(&f->kept);
+    gl_state_keep(&f->caller_state);
     if (f->flush) /* zink of Mesa 22.3 draws hardly any particle after a view's indexed indirect draw */
         glFlush();
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, f->bucket_framebuffer[0]);
@@ -83,7 +83,7 @@ void fragment_grid(void *state)
     fragment_sample(FRAGMENT_SAMPLE_POSITION, f->position[0]);
     fragment_sample(FRAGMENT_SAMPLE_BUCKETS, f->buckets);
     fill_layers(f);
-    gl_state_restore(&f->kept);
+    gl_state_restore(&f->caller_state);
 }
 
 /* Assignment of particles to texels. From time to time the particles are sorted by cell, so that a pass
@@ -92,12 +92,12 @@ void fragment_grid(void *state)
 
 void fragment_number(Fragment *f)
 {
-    gl_state_keep(&f->kept);
+    gl_state_keep(&f->caller_state);
     fragment_sample(FRAGMENT_SAMPLE_POSITION, f->position[0]);
     fragment_target(f, &f->held[1], 1, f->width, f->height);
     glUseProgram(f->program[FRAGMENT_NUMBER]);
     glDrawArrays(GL_POINTS, 0, (GLsizei)f->count);
-    gl_state_restore(&f->kept);
+    gl_state_restore(&f->caller_state);
     fragment_pack(f->held[1], GL_RED_INTEGER, f->listed[0], 0, 4 * (size_t)f->width * (size_t)f->height);
 }
 
@@ -132,7 +132,7 @@ static size_t list_by_cell(const Fragment *f)
 static bool order(Fragment *f)
 {
     bool all;
-    gl_state_keep(&f->kept);
+    gl_state_keep(&f->caller_state);
     fragment_sample(FRAGMENT_SAMPLE_POSITION, f->position[0]);
     fragment_sample(FRAGMENT_SAMPLE_VELOCITY, f->velocity[0]);
     fragment_sample(FRAGMENT_SAMPLE_HELD, f->held[0]);
@@ -143,7 +143,7 @@ static bool order(Fragment *f)
     if (all)
         fragment_draw(f, FRAGMENT_REORDER, (const unsigned[]){f->position[1], f->velocity[1], f->held[1]}, 3,
                       f->width, f->height);
-    gl_state_restore(&f->kept);
+    gl_state_restore(&f->caller_state);
     return all;
 }
 

@@ -42,9 +42,9 @@ bool fragment_gauge(void *state, const double gravity[3])
     fragment_set3(f, FRAGMENT_GAUGE_FIRST, FRAGMENT_gravity, g);
     fragment_set1(f, FRAGMENT_GAUGE_FIRST, FRAGMENT_c2,
                   f->constants->sound_speed * f->constants->sound_speed);
-    gl_state_keep(&f->kept);
+    gl_state_keep(&f->caller_state);
     reduce_gauge(f, FRAGMENT_GAUGE_FIRST);
-    gl_state_restore(&f->kept);
+    gl_state_restore(&f->caller_state);
     fragment_pack(f->found[f->levels - 1], GL_RGBA_INTEGER, f->gauge.buffer, 0, 4 * sizeof(float));
     fragment_pack(f->held_sum[f->levels - 1], GL_RED_INTEGER, f->gauge.buffer, 4 * sizeof(float),
                   sizeof(float));
@@ -80,9 +80,9 @@ void fragment_energy(void *state, bool turning, EnergySums *sums)
                   f->constants->sound_speed * f->constants->sound_speed);
     for (int k = 0; k < count; k++) {
         fragment_set1(f, FRAGMENT_ENERGY_FIRST, FRAGMENT_which, (float)k);
-        gl_state_keep(&f->kept);
+        gl_state_keep(&f->caller_state);
         reduce_gauge(f, FRAGMENT_ENERGY_FIRST);
-        gl_state_restore(&f->kept);
+        gl_state_restore(&f->caller_state);
         fragment_pack(f->found[f->levels - 1], GL_RGBA_INTEGER, f->energy.buffer,
                       (size_t)k * 4 * sizeof(float), 4 * sizeof(float));
     }
@@ -148,7 +148,7 @@ void fragment_share(void *state, unsigned attributes, ParticleBuffers *out)
 {
     Fragment *f = state;
     fragment_watch_send(f);
-    gl_state_keep(&f->kept);
+    gl_state_keep(&f->caller_state);
     fragment_shown_create(f);
     draw(f, FRAGMENT_PLACE, f->placed);
     out->position = pack(f, &f->shown_position, f->placed, GL_RGBA, 16);
@@ -163,7 +163,7 @@ void fragment_share(void *state, unsigned attributes, ParticleBuffers *out)
         show(f, SHOW_ID);
         out->id = pack(f, &f->shown[SHOW_ID], f->word, GL_RED_INTEGER, 4);
     }
-    gl_state_restore(&f->kept);
+    gl_state_restore(&f->caller_state);
 }
 
 /* Findings of a frame's kicks: reduced by ever smaller targets, read at the begin of the next frame. Also
@@ -196,9 +196,9 @@ void fragment_watch_gather(Fragment *f, const float gravity[3], float dt)
 {
     f->longest = fmaxf(f->longest, dt);
     fragment_set3(f, FRAGMENT_WATCH_FIRST, FRAGMENT_gravity, gravity);
-    gl_state_keep(&f->kept);
+    gl_state_keep(&f->caller_state);
     reduce_watch(f);
-    gl_state_restore(&f->kept);
+    gl_state_restore(&f->caller_state);
     fragment_swap(f->watch);
     f->watch_due = true;
 }
@@ -210,23 +210,6 @@ static void fragment_watch_send(Fragment *f)
     fragment_pack(f->watch[0], GL_RGBA_INTEGER, f->watched.buffer, 0, f->watched.bytes);
     mailbox_send(&f->watched);
     f->watch_due = false;
-}
-
-static void forget(Fragment *f)
-{
-    glClearTexImage(f->watch[0], 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, NULL);
-    f->longest = 0;
-}
-
-void fragment_watch_reset(Fragment *f, size_t guarded)
-{
-    forget(f);
-    mailbox_forget(&f->watched);
-    f->watch_due = false;
-    f->marks = 0;
-    glClearTexImage(f->held[0], 0, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
-    f->guarded_before = guarded;
-    f->guarded = 0;
 }
 
 StepWatch fragment_watch(void *state)
@@ -241,7 +224,7 @@ StepWatch fragment_watch(void *state)
     const float fastest = f->constants->support_radius / f->longest, speed2 = float_of_bits(found[0]);
     f->lost = found[3];
     f->guarded = found[4];
-    forget(f);
+    fragment_watch_forget(f);
     return (StepWatch){.bounded = speed2 <= fastest * fastest,
                        .max_speed = sqrtf(speed2),
                        .max_acceleration = sqrtf(float_of_bits(found[1])),

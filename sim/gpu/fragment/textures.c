@@ -1,9 +1,9 @@
 /* Textures and framebuffers of the backend. */
 #include "sim/gpu/fragment/fragment.h"
 
-#include "sim/gpu/gl_context.h"
+#include "sim/gpu/gl.h"
 #include "sim/gpu/packing.h"
-#include "sim/step/backend_sums.h"
+#include "sim/step/backend.h"
 
 #include <epoxy/gl.h>
 #include <stdlib.h>
@@ -34,6 +34,7 @@ static unsigned texture(Fragment *f, const char *label, GLenum format, int width
     glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     clear(name, format);
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT); /* as in compute_buffer */
     f->bytes += texel_bytes(format) * (size_t)width * (size_t)height;
     return name;
 }
@@ -193,15 +194,15 @@ enum { POSITION = 1, VELOCITY, FIELDS, TEXTURES };
 
 #define AT(member) offsetof(ParticleColumns, member)
 
-static const Packing packing = {.words = {[POSITION] = 4, [VELOCITY] = 4, [FIELDS] = 4},
-                                .column = {
-                                    {POSITION, 0, AT(x), COLUMN_FLOAT},
-                                    {POSITION, 3, AT(id), COLUMN_FLOAT},
-                                    {VELOCITY, 0, AT(vx), COLUMN_FLOAT},
-                                    {VELOCITY, 3, AT(fluid), COLUMN_FLOAT},
-                                    {FIELDS, 0, AT(volume), COLUMN_FLOAT},
-                                    {FIELDS, 1, AT(pressure), COLUMN_FLOAT},
-                                }};
+static const ColumnPacking packing = {.words = {[POSITION] = 4, [VELOCITY] = 4, [FIELDS] = 4},
+                                      .column = {
+                                          {POSITION, 0, AT(x), COLUMN_FLOAT},
+                                          {POSITION, 3, AT(id), COLUMN_FLOAT},
+                                          {VELOCITY, 0, AT(vx), COLUMN_FLOAT},
+                                          {VELOCITY, 3, AT(fluid), COLUMN_FLOAT},
+                                          {FIELDS, 0, AT(volume), COLUMN_FLOAT},
+                                          {FIELDS, 1, AT(pressure), COLUMN_FLOAT},
+                                      }};
 
 static unsigned texture_of(const Fragment *f, int texture)
 {
@@ -429,4 +430,21 @@ void fragment_info(const void *state, WorldInfo *info)
     info->state_bytes = f->bytes;
     info->guarded = f->guarded_before + f->guarded;
     info->lost = f->lost;
+}
+
+void fragment_watch_forget(Fragment *f)
+{
+    glClearTexImage(f->watch[0], 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, NULL);
+    f->longest = 0;
+}
+
+void fragment_watch_reset(Fragment *f, size_t guarded)
+{
+    fragment_watch_forget(f);
+    mailbox_forget(&f->watched);
+    f->watch_due = false;
+    f->marks = 0;
+    glClearTexImage(f->held[0], 0, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    f->guarded_before = guarded;
+    f->guarded = 0;
 }

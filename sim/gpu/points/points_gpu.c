@@ -1,10 +1,8 @@
 #include "sim/gpu/points/points_gpu.h"
 
 #include "shaders/surface/surface_bindings.h"
-#include "sim/gpu/gl_context.h"
-#include "sim/gpu/program.h"
-#include "sim/points/level_kind.h"
-#include "sim/points/sampling.h"
+#include "sim/gpu/gl.h"
+#include "sim/points/points.h"
 #include "sim/points/walk.h"
 
 #include <epoxy/gl.h>
@@ -65,10 +63,8 @@ static unsigned buffer_of(const char *label, const void *data, size_t bytes)
     glCreateBuffers(1, &buffer);
     glObjectLabel(GL_BUFFER, buffer, -1, label);
     gl_debug_errors(); /* errors found below belong to this buffer */
-    gl_debug_asks_for_memory(true);
     glNamedBufferData(buffer, (GLsizeiptr)(bytes > 0 ? bytes : sizeof nothing), bytes > 0 ? data : nothing,
                       GL_STREAM_DRAW);
-    gl_debug_asks_for_memory(false);
     if (gl_errors_take(0) == 0)
         return buffer;
     glDeleteBuffers(1, &buffer);
@@ -145,7 +141,7 @@ static bool take_spheres(SurfaceGpu *gpu, const Counting *counting, Error *error
 /* Makes room for `count` points in total; keeps the contents. */
 static bool reserve(SurfaceGpu *gpu, size_t count, Error *error)
 {
-    if (count <= gpu->point_room && gpu->points)
+    if (count <= gpu->point_capacity && gpu->points)
         return true;
     const unsigned larger = buffer_of("points on a surface", NULL, count * POINT);
     if (!larger)
@@ -158,7 +154,7 @@ static bool reserve(SurfaceGpu *gpu, size_t count, Error *error)
     }
     glDeleteBuffers(1, &gpu->points);
     gpu->points = larger;
-    gpu->point_room = count;
+    gpu->point_capacity = count;
     return true;
 }
 
@@ -336,7 +332,7 @@ unsigned surface_gpu_take_points(SurfaceGpu *gpu)
 {
     const unsigned buffer = gpu->points;
     gpu->points = 0;
-    gpu->point_count = gpu->point_room = 0;
+    gpu->point_count = gpu->point_capacity = 0;
     return buffer;
 }
 

@@ -4,7 +4,7 @@
 #ifndef SIM_GPU_POINTS_POINTS_GPU_H
 #define SIM_GPU_POINTS_POINTS_GPU_H
 
-#include "sim/points/sampling.h"
+#include "sim/points/points.h"
 
 #include <stdint.h>
 
@@ -24,7 +24,7 @@ typedef struct SurfaceGpu {
     unsigned field[2], walkers, spheres, cells, counts; /* GL names of a walk's buffers */
     size_t walker_count;
     unsigned points; /* GL name of the buffer of points; 0: none */
-    size_t point_count, point_room;
+    size_t point_count, point_capacity;
     float sphere_low[3], sphere_cell[3], sphere_radius;
     int64_t block_bytes; /* greatest size of a buffer in a shader; tests may set less */
     unsigned group_most; /* work groups per dispatch; tests may set less */

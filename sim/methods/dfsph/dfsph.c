@@ -1,9 +1,8 @@
 /* after: J. Bender, D. Koschier, "Divergence-free SPH for incompressible and viscous fluids", 2017 */
-#include "sim/methods/dfsph/dfsph_private.h"
-
 #include "sim/base/key_rows.h"
+#include "sim/methods/dfsph/dfsph_private.h"
 #include "sim/methods/shared/incompressible.h"
-#include "sim/step/iterate.h"
+#include "sim/step/substep.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,6 +14,10 @@ static const Key keys[] = {
     NUMBER("solver.tolerance", 0, "", 0, 1, offsetof(DfsphDef, tolerance), "mean compression that the solver of density leaves"),
     NUMBER("solver.divergence_tolerance", 0, "", 0, 1, offsetof(DfsphDef, divergence_tolerance), "mean compression that a step's velocities may make"),
     INTEGER("solver.iterations", 0, 1, 10000, offsetof(DfsphDef, iterations), "of each solver, at most"),
+    NUMBER("solver.surface_lack", 0, "", 0, 1, offsetof(DfsphDef, surface_lack),
+           "part of the neighbours missing at a free surface that the solvers add: 1, else a dense skin slows waves; 0: none", .off = "0"),
+    NUMBER("solver.rest_viscosity", 0, "", 0, 1, offsetof(DfsphDef, rest_viscosity),
+           "alpha; fluid rubs as if it had alpha h sqrt(g h) / (4 (d + 2)) m2/s at least; 0: none", .off = "0"),
     KEYS_END,
 };
 /* clang-format on */
@@ -25,17 +28,21 @@ static const float REACH = 1.1F;
 
 static void dfsph_set(Constants *constants, const WorldDef *def)
 {
-    const IncompressibleFactors factors = incompressible_factors(def, constants);
+    const IncompressibleFactors factors =
+        incompressible_factors(def, constants, &dfsph_solvers(constants)->factors);
     const DfsphDef *said = dfsph_def(def);
     const DfsphConstants own = {
         .sums = {.gradient = factors.gradient,
                  .friction_gradient = factors.friction_gradient,
                  .relaxation = REACH * factors.relaxation,
                  .pressure_of_term = factors.pressure_of_term,
-                 .least_squares = factors.least_squares},
+                 .least_squares = factors.least_squares,
+                 .surface_lack = (float)said->surface_lack * factors.surface_lack,
+                 .surface_slope = factors.surface_slope},
         .most = said->iterations,
         .tolerance = said->tolerance,
         .divergence_tolerance = said->divergence_tolerance,
+        .factors = factors,
     };
     _Static_assert(sizeof own <= METHOD_CONSTANTS_SIZE, "constants hold it");
     memcpy(constants->of_method, &own, sizeof own);
@@ -50,9 +57,14 @@ enum { FEW = 2 };
 static const double WORST = 10;                                                     /* in tolerances, */
 static const double WORTH[] = {[SOLVE_DENSITY] = 0.01, [SOLVE_DIVERGENCE] = 0.005}; /* and at least */
 
-/* Factor of the residual for calm fluid (sim/methods/shared/incompressible.h): with it fluid at rest needs
+/* Factor of the residual for calm fluid (sim/methods/shared/incompressible.h): so fluid at rest needs
    fewer iterations. */
 static const double CALM = 0.2;
+
+/* The most that is left where fluid rests. Each step leaves velocities of residual * h / dt, and friction
+   takes hundreds of steps to remove such: with 1e-4 in steps of 10 ms a tank never rests. With 1e-5 a tank
+   rests, in fewer iterations: fluid at rest needs no iteration. */
+static const double STILL = 1e-5;
 
 /* Solve to `tolerance`; a mean above STEP_SOLVE_STANDS times `allowed` is trouble. */
 static void solve(const Substep *step, int which, const Pass *const passes[4], double tolerance,
@@ -99,7 +111,7 @@ static void end_divergence(const Substep *step)
     static const Pass *const passes[] = {&dfsph_divergence_begin, &dfsph_divergence_push,
                                          &dfsph_divergence_rate, &dfsph_divergence_end};
     const double allowed = dfsph_solvers(step->constants)->divergence_tolerance;
-    solve(step, SOLVE_DIVERGENCE, passes, incompressible_rest_residual(step, step->dt, CALM, allowed),
+    solve(step, SOLVE_DIVERGENCE, passes, incompressible_rest_residual(step, step->dt, CALM, STILL, allowed),
           allowed);
 }
 
@@ -137,6 +149,17 @@ static void dfsph_substep(const Substep *step)
         hold_density(step);
     STAGE (step->clock, STAGE_INTEGRATE)
         b->drift(state, &step->second_half);
+}
+
+/* What rests is stirred by the noise of pressure, at some part of sqrt(g h). */
+static StepFriction dfsph_step_friction(const WorldDef *def, const Lattice *lattice)
+{
+    const double *g = def->gravity, h = def->support * def->spacing;
+    const double fall = sqrt(h * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]));
+    StepFriction friction = incompressible_friction(def, lattice);
+    friction.numerical = 0.25 * dfsph_def(def)->rest_viscosity * h * fall / (def->dimensions + 2);
+    friction.numerical_key = "solver.rest_viscosity";
+    return friction;
 }
 
 static const Pass *const passes[] = {&dfsph_state,
@@ -178,7 +201,7 @@ const Method method_dfsph = {
     .solvers = {[SOLVE_DENSITY] = {"density", "solver.tolerance", "solver.iterations"},
                 [SOLVE_DIVERGENCE] = {"divergence", "solver.divergence_tolerance", "solver.iterations"}},
     .kernels = incompressible_kernels,
-    .friction = incompressible_friction,
+    .friction = dfsph_step_friction,
     .multiplier = &dfsph_columns[KEPT],
     .pressure_of_multiplier = pressure_of_multiplier,
     .constants = dfsph_set,

@@ -34,6 +34,14 @@ static void terms_body(const CpuRange *range)
     }
 }
 
+/* What a surface lacks, from |sum F x_ij| and from n / n0: 0 within the fluid, that of a lattice's outermost
+   row at most. The bound is twice what n lacks: fluid out of order has some slope where n is whole. */
+static float lack_of(const DfsphBlock *block, float slope, float full)
+{
+    const float part = (slope / block->surface_slope - SURFACE_FROM) / (1 - SURFACE_FROM);
+    return fminf(fmaxf(part, 0), 1) * fminf(fmaxf(LACK_OVER_GAP * (1 - full), 0), block->surface_lack);
+}
+
 /* 1 / D, from the sums in n, acceleration and squares. Where particles are crowded, many k affect each rate,
    and Jacobi's step is shorter. */
 static void finish_factor(const Cpu *cpu, size_t i)
@@ -46,6 +54,8 @@ static void finish_factor(const Cpu *cpu, size_t i)
     const float least = dfsph_constants(cpu->constants)->least_squares * p->own[INVERSE_MASS][i];
     const float whole = d > least ? d : least;
     p->own[FACTOR][i] = whole > 0 ? fminf(1, cpu->constants->rest_number_density / p->volume[i]) / whole : 0;
+    p->own[LACK][i] = lack_of(dfsph_constants(cpu->constants), p->own[LACK][i],
+                              p->volume[i] / cpu->constants->rest_number_density);
     p->volume[i] = 1 / p->volume[i];
     p->pressure[i] = dfsph_constants(cpu->constants)->pressure_of_term * p->own[KEPT][i];
     p->ax[i] = p->ay[i] = p->az[i] = 0;
@@ -79,8 +89,9 @@ const Pass dfsph_state = {
     .cpu = &state,
     .shader = "dfsph/factor",
     .reads = "position id fluid kept_term",
-    .writes = "volume pressure pressure_term acceleration viscosity tension kind factor squares inverse_mass "
-              "solid_slope solid_flow solid_share",
+    .writes =
+        "volume pressure pressure_term acceleration viscosity tension kind factor squares lack inverse_mass "
+        "solid_slope solid_flow solid_share",
 };
 
 /* --- accelerations except pressure --- */
@@ -95,6 +106,7 @@ static void others_body(const CpuRange *range)
         for (size_t i = range->begin; i < range->end; i++)
             p->ax[i] = p->ay[i] = p->az[i] = 0;
     cpu_force_end(range);
+    cpu_wall_lift(range, LIFT_FROM);
     for (size_t i = range->begin; i < range->end; i++) {
         p->own[OTHER][i] = p->ax[i];
         p->own[OTHER + 1][i] = p->ay[i];
@@ -116,9 +128,9 @@ const Pass dfsph_others = {
     .stage = STAGE_FORCE,
     .cpu = &others,
     .shader = "dfsph/force",
-    .reads = "position velocity id fluid volume viscosity tension kind",
+    .reads = "position velocity id fluid volume pressure viscosity tension kind",
     .writes = "acceleration other",
-    .felt = true,
+    .acts_on_solids = true,
     .mirrors = true,
 };
 
@@ -202,7 +214,7 @@ static void divergence_end(const CpuRange *range)
 }
 
 /* Effect of the box on a particle until the middle of the next step, and the kick's gravity, m/s2. */
-static void felt_at(const PassInput *input, bool before_kick, const float x[3], float g[3])
+static void apparent_at(const PassInput *input, bool before_kick, const float x[3], float g[3])
 {
     apparent_gravity_at(input->apparent, x, g);
     for (int k = 0; k < 3; k++)
@@ -225,19 +237,19 @@ static void begin_motion(const CpuRange *range, bool before_kick)
     const PassInput *input = range->input;
     const bool turns = turning(input->apparent);
     float *const *base = p.own + BASE, *const *more = before_kick ? p.own + OTHER : NULL, g[3];
-    felt_at(input, before_kick, (float[]){0, 0, 0}, g); /* the same everywhere if the box does not turn */
+    apparent_at(input, before_kick, (float[]){0, 0, 0}, g); /* the same everywhere if the box does not turn */
     for (size_t i = range->begin; i < range->end; i++) {
         const bool solid = p.fluid[i] >= FLUIDS_MAX; /* keeps its velocity */
         const float v[3] = {p.vx[i], p.vy[i], p.vz[i]}, t = solid ? 0 : input->dt;
         if (turns)
-            felt_at(input, before_kick, (float[]){p.x[i], p.y[i], p.z[i]}, g);
+            apparent_at(input, before_kick, (float[]){p.x[i], p.y[i], p.z[i]}, g);
         for (int k = 0; k < 3; k++)
             range->cpu->motion[i][k] = base[k][i] = v[k] + t * (g[k] + (more && !solid ? more[k][i] : 0));
         range->cpu->motion[i][3] = p.volume[i];
     }
 }
 
-/* Start from no move: a part of the last step's move would act on fluid at rest again and again, and lift it.
+/* Start from no move: a part of the last step's move would lift fluid at rest, again and again.
    OTHER keeps the accelerations meanwhile. */
 static void density_begin(const CpuRange *range)
 {
@@ -407,9 +419,9 @@ static void rate_solids(const CpuRange *range)
     }
 }
 
-/* n / n0 - 1 after the step. For divergence an excess of density at the begin counts as 0, and a lack counts:
-   such a particle is free to come together. Where pressure pulls, a lack counts as 0 too: no velocity may
-   close a gap in one step; positions do. */
+/* n / n0 + LACK - 1 after the step. For divergence an excess of density at the begin counts as 0, and a lack
+   counts: such a particle is free to come together. Where pressure pulls, a lack counts as 0 too: no velocity
+   may close a gap in one step; positions do. */
 static void rate(const CpuRange *range, bool of_density)
 {
     const CpuParticles *p = &range->cpu->now;
@@ -422,10 +434,11 @@ static void rate(const CpuRange *range, bool of_density)
     const float *volume = p->volume, *k = p->pressure_term, change = dt / n0;
     const float above = of_density, below = of_density || !pulls,
                 free = pulls; /* factors: excess, lack, no k */
+    const float *lack = p->own[LACK];
     float *miss = p->own[MISS];
 #pragma omp simd
     for (size_t i = range->begin; i < range->end; i++) {
-        const float now = 1 / (volume[i] * n0) - 1, counts = now > 0 ? above : below;
+        const float now = 1 / (volume[i] * n0) + lack[i] - 1, counts = now > 0 ? above : below;
         const float left = now * counts + change * residual[i], held = k[i] > 0 ? 1 : free;
         const float other = -held * left;
         residual[i] = left;
@@ -503,7 +516,7 @@ static const CpuPass rates[] = {
     }
 
 #define PUSH_READS "position id fluid base pressure_term residual factor inverse_mass change"
-#define RATE_READS "position id fluid volume pressure_term"
+#define RATE_READS "position id fluid volume lack pressure_term"
 
 const Pass dfsph_divergence_begin =
     SOLVE("divergence begin", begins[0], "divergence_begin", "position velocity fluid volume other kept_term",
@@ -520,7 +533,7 @@ const Pass dfsph_divergence_end = {
     .shader = "dfsph/divergence_end",
     .reads = "pressure_term acceleration other",
     .writes = "kept_term pressure acceleration",
-    .felt = true,
+    .acts_on_solids = true,
 };
 const Pass dfsph_density_begin =
     SOLVE("density begin", begins[1], "density_begin", "position velocity fluid volume acceleration",
@@ -548,6 +561,7 @@ const ColumnDef dfsph_columns[] = {
     {"kept_term", "Pa", OWN(KEPT), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED},
     {"factor", "kg/m", OWN(FACTOR), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"squares", "m/kg", OWN(SQUARES), 1, COLUMN_FLOAT},
+    {"lack", "", OWN(LACK), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"inverse_mass", "m3/kg", OWN(INVERSE_MASS), 1, COLUMN_FLOAT},
     {"residual", "", OWN(RESIDUAL), 1, COLUMN_FLOAT},
     {"miss", "", OWN(MISS), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},

@@ -22,7 +22,11 @@
    once.
    With k_i on both sides no boundary particle pushes i along the solid, and i gets only the fluid's part of
    the gradient of pressure there. So that part of the acceleration is multiplied by 1 / (1 - s), s =
-   SOLID_SHARE. */
+   SOLID_SHARE.
+   At a free surface half of the neighbours are missing. Held to n <= n0 alone, the outermost particles would
+   crowd into one dense row, a skin that the flow below can not stretch: a dead load that slows waves. So with
+   solver.surface_lack the solvers hold n / n0 + LACK: LACK follows from |sum F x_ij|, which is great where
+   one side is empty. */
 
 #define DFSPH_KERNEL INCOMPRESSIBLE_KERNEL
 
@@ -31,6 +35,7 @@ enum {
     KEPT,                         /* k after the last step's solver of divergence, Pa: start of the next */
     FACTOR,                       /* 1 / D, kg/m; 0 without neighbours */
     SQUARES,                      /* sum F^2 r^2 / m_j, m/kg */
+    LACK,                         /* what a surface lacks of n, over n0 */
     INVERSE_MASS,                 /* m3/kg; 0 for particles of solids */
     RESIDUAL,                     /* n / n0 - 1 at the end of the step, as predicted */
     MISS,                         /* error of RESIDUAL: on either side where k holds; else only above 0 */
@@ -51,6 +56,7 @@ typedef struct DfsphConstants {
     DfsphBlock sums;
     int most; /* iterations */
     double tolerance, divergence_tolerance;
+    IncompressibleFactors factors;
 } DfsphConstants;
 
 static inline const DfsphConstants *dfsph_solvers(const Constants *constants)

@@ -7,7 +7,8 @@
 /* Sums of the number density; `place` has 1 / m. */
 PAIR_LOOP(dfsph_factor)
 {
-    density_sums(args, begin, end, dfsph_constants(args->constants)->gradient, args->own[SQUARES]);
+    density_sums(args, begin, end, dfsph_constants(args->constants)->gradient, args->own[SQUARES],
+                 args->own[LACK]);
 }
 
 /* sum (k_i + k_j) F x_ij; `place` has k. */
@@ -16,11 +17,11 @@ PAIR_LOOP(dfsph_push)
     const f8 gradient = f8_splat(dfsph_constants(args->constants)->gradient), zero = f8_splat(0);
     GROUPS (i, begin, end) {
         const f8 ki = f8_load(args->pressure_term + i);
-        Place sum = {zero, zero, zero};
-        push_of(args, i, near_of(args, i), ki, NULL, &sum);
+        LaneVector sum = {zero, zero, zero};
+        push_of(args, i, neighbour_range_of(args, i), ki, NULL, &sum);
         for (const uint32_t *at = first_image(args, i); at;) {
             ImageParticle image;
-            Near near;
+            NeighbourRange near;
             at = next_image(at, &image, &near);
             NEIGHBOURS (near, j)
                 push_by(args, &image, ki, f8_load4(args->place, j), &sum);
@@ -40,10 +41,10 @@ SIMD_INLINE f8 rate_by(const PairArgs *args, const ImageParticle *image, f8x4 vi
             (image->sign.z * vi.z - v.z) * d.z);
 }
 
-SIMD_INLINE f8 rate_of(const PairArgs *args, size_t i, const Near near, f8x4 vi)
+SIMD_INLINE f8 rate_of(const PairArgs *args, size_t i, const NeighbourRange near, f8x4 vi)
 {
     const f8 inverse_h = f8_splat(1 / args->constants->support_radius);
-    const Place at = place_of(args, i);
+    const LaneVector at = place_of(args, i);
     f8 sum = f8_splat(0);
     NEIGHBOURS (near, j) {
         const f8x4 p = f8_load4(args->place, j), v = motion(args, j);
@@ -63,10 +64,10 @@ PAIR_LOOP(dfsph_rate)
     GROUPS (i, begin, end) {
         const SelfLanes own = themselves(args, i);
         const f8x4 vi = motion(args, own.j);
-        f8 sum = rate_of(args, i, near_of(args, i), vi);
+        f8 sum = rate_of(args, i, neighbour_range_of(args, i), vi);
         for (const uint32_t *at = first_image(args, i); at;) {
             ImageParticle image;
-            Near near;
+            NeighbourRange near;
             at = next_image(at, &image, &near);
             NEIGHBOURS (near, j)
                 sum += rate_by(args, &image, vi, f8_load4(args->place, j), motion(args, j));
@@ -85,12 +86,12 @@ PAIR_LOOP(dfsph_friction)
 
 /* Sums over boundary particles of F x, of F x x^T, and of F v . x with the velocity v of a boundary
    particle. */
-typedef struct Solid {
+typedef struct SolidSums {
     f8 x, y, z, xx, yy, zz, xy, yz, zx, flow;
-} Solid;
+} SolidSums;
 
-SIMD_INLINE void add_boundary(const PairArgs *args, const uint32_t *j, const Separation *d, const Place *sign,
-                              Solid *sum)
+SIMD_INLINE void add_boundary(const PairArgs *args, const uint32_t *j, const Separation *d,
+                              const LaneVector *sign, SolidSums *sum)
 {
     const f8 zero = f8_splat(0), q = f8_sqrt(d->r2) * f8_splat(1 / args->constants->support_radius);
     const i8 solid = f8_gather(args->own[INVERSE_MASS], j) == zero;
@@ -105,10 +106,10 @@ SIMD_INLINE void add_boundary(const PairArgs *args, const uint32_t *j, const Sep
 }
 
 SIMD_INLINE void add_images(const PairArgs *args, const WallsFar *far, size_t i, size_t begin, size_t end,
-                            Solid *sum)
+                            SolidSums *sum)
 {
-    const Near near = near_of(args, i);
-    Images images;
+    const NeighbourRange near = neighbour_range_of(args, i);
+    LaneImages images;
     if (!images_of(args, far, i, begin, end, &images))
         return;
     for (int m = 1; m <= images.count; m++) {
@@ -121,7 +122,7 @@ SIMD_INLINE void add_images(const PairArgs *args, const WallsFar *far, size_t i,
 }
 
 /* The mean of F y^2 over directions y along the solid: across sum F x. */
-SIMD_INLINE f8 along(const Solid *sum, float dimensions)
+SIMD_INLINE f8 along(const SolidSums *sum, float dimensions)
 {
     const f8 x = sum->x, y = sum->y, z = sum->z, square = x * x + y * y + z * z, two = f8_splat(2),
              across = x * x * sum->xx + y * y * sum->yy + z * z * sum->zz +
@@ -137,11 +138,11 @@ PAIR_LOOP(dfsph_solids)
     const f8 one = f8_splat(1), zero = f8_splat(0),
              share = f8_splat(args->constants->rest_number_density /
                               dfsph_constants(args->constants)->pressure_of_term);
-    const Place unturned = {one, one, one};
+    const LaneVector unturned = {one, one, one};
     GROUPS (i, begin, end) {
-        const Place at = place_of(args, i);
-        const Near near = near_of(args, i);
-        Solid sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
+        const LaneVector at = place_of(args, i);
+        const NeighbourRange near = neighbour_range_of(args, i);
+        SolidSums sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
         NEIGHBOURS (near, j) {
             Separation d = separation(args, at, j);
             if (__builtin_expect(near.coincident, 0))

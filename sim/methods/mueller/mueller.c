@@ -1,9 +1,8 @@
 /* Density, pressure and forces: pair sums, then additions by walls. */
-#include "sim/methods/mueller/mueller_private.h"
-
 #include "sim/base/key_rows.h"
 #include "sim/def/fluids.h"
-#include "sim/step/step_control.h"
+#include "sim/methods/mueller/mueller_private.h"
+#include "sim/step/constants.h"
 #include "sim/step/substep.h"
 
 #include <math.h>
@@ -33,35 +32,12 @@ static void density_body(const CpuRange *range)
         finish_density(range->cpu, i);
 }
 
-/* Hydrostatic continuation of pressure behind walls: the share of a particle's weight held by the walls.
-   Fades out below the pressure of a layer, so that a drop on a wall falls freely. */
-static void add_lift(const CpuRange *range, const float x[3], size_t i)
-{
-    const Constants *s = range->cpu->constants;
-    const CpuParticles *p = &range->cpu->now;
-    float g[3], lift[3];
-    apparent_gravity_at(range->input->apparent, x, g);
-    const float layer = s->density[p->fluid[i]] * s->spacing * sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-    const float fade = layer > 0 ? fminf(fmaxf(p->pressure[i] / layer, 0), 1) : 0;
-    walls_lift(&mueller_constants(s)->lift, &s->walls, x, lift);
-    p->ax[i] -= fade * lift[0] * g[0];
-    p->ay[i] -= fade * lift[1] * g[1];
-    p->az[i] -= fade * lift[2] * g[2];
-}
-
 static void force_body(const CpuRange *range)
 {
-    const Constants *s = range->cpu->constants;
-    const CpuParticles *p = &range->cpu->now;
-    const WallsFar far = walls_far(&s->walls, s->support_radius);
     cpu_pairs(range, &mueller_force);
     cpu_force_end(range);
     cpu_cushion(range);
-    for (size_t i = range->begin; i < range->end; i++) {
-        const float x[3] = {p->x[i], p->y[i], p->z[i]};
-        if (walls_near(&far, x))
-            add_lift(range, x, i);
-    }
+    cpu_wall_lift(range, 0);
 }
 
 /* Per neighbour: {x, p V^2}. */
@@ -85,8 +61,10 @@ static void solid_force(const SolidPair *pair, float out[3])
     const Constants *s = pair->cpu->constants;
     const CpuParticles *p = &pair->cpu->now;
     const size_t i = pair->i, b = pair->b;
-    const float t = 1 - pair->r / s->support_radius;
-    const float push = s->pressure_scale * t * t * (p->pressure_term[i] + p->pressure_term[b]) / pair->r;
+    const float t = 1 - pair->r / s->support_radius, terms = p->pressure_term[i] + p->pressure_term[b];
+    const float push = mueller_constants(s)->kernel == DENSITY_QUINTIC
+                           ? cpu_slope(s->lattice.pressure_kernel, pair, s->lattice.gradient_scale) * terms
+                           : s->pressure_scale * t * t * terms / pair->r;
     const float drag =
         s->rubs ? 0.5F * s->viscosity_scale * t * p->volume[i] * p->volume[b] * cpu_pair_viscosity(pair) : 0;
     const float u[3] = {p->vx[b] - p->vx[i], p->vy[b] - p->vy[i], p->vz[b] - p->vz[i]};
@@ -113,7 +91,7 @@ const Pass mueller_forces = {
     .shader = "mueller/force",
     .reads = "position velocity id fluid volume pressure pressure_term viscosity tension kind",
     .writes = "acceleration",
-    .felt = true,
+    .acts_on_solids = true,
     .mirrors = true,
 };
 
@@ -141,17 +119,17 @@ static void advise_heat(const MethodAdvice *advice)
 {
     const WorldDef *def = advice->def;
     const bool fixed = def->step_mode == STEP_FIXED;
-    const double crossing = def->support * def->spacing / step_sound(def),
+    const double crossing = def->support * def->spacing / step_sound(def), calm = step_sound_calm(def),
                  step = fixed ? def->dt / def->substeps : fmin(def->cfl_number * crossing, def->max_dt);
-    if (step <= STEP_SOUND_CALM * crossing * (1 + 1e-9) || (fixed && step > STEP_SOUND_STANDS * crossing) ||
+    if (step <= calm * crossing * (1 + 1e-9) || (fixed && step > STEP_SOUND_STANDS * crossing) ||
         step > 0.001 * step_viscous(def, advice->friction))
         return;
     const char *path = fixed ? "solver.step.dt" : "solver.step.number";
     char better[64];
     if (fixed)
-        snprintf(better, sizeof better, "%g substeps or more", substeps_for(def, STEP_SOUND_CALM * crossing));
+        snprintf(better, sizeof better, "%g substeps or more", substeps_for(def, calm * crossing));
     else
-        snprintf(better, sizeof better, "at most %g", STEP_SOUND_CALM);
+        snprintf(better, sizeof better, "at most %g", calm);
     method_say(
         advice, path,
         "steps of %.2g h / sound_speed heat fluid that has no viscosity: 0.3 %% of a column's energy in 4,000 "
@@ -184,7 +162,7 @@ static void mueller_advise(const MethodAdvice *advice)
  * 2003 */
 
 static const MuellerDef usual = {
-    .density_kernel = "spiky", /* the paper's poly6 heats the fluid: see docs/methods.md */
+    .density_kernel = "spiky", /* the paper's poly6 heats the fluid: see docs/labbook/methods.md */
 };
 
 static const Key keys[] = {
@@ -197,30 +175,41 @@ static const Key keys[] = {
 
 static MethodKernels mueller_kernels(const WorldDef *def)
 {
-    return (MethodKernels){density_kernel_find(mueller_def(def)->density_kernel),
-                           density_kernel_find("spiky")};
+    const Kernel *kernel = density_kernel_find(mueller_def(def)->density_kernel);
+    const bool poly6 = kernel == &density_kernels[DENSITY_POLY6];
+    return (MethodKernels){kernel, poly6 ? &density_kernels[DENSITY_SPIKY] : kernel};
 }
 
 static void mueller_set(Constants *constants, const WorldDef *def)
 {
-    const MuellerConstants own = {
-        .poly6 = mueller_kernels(def).density->value == kernel_poly6,
-        .lift = wall_lift_of(&constants->lattice, def->spacing, def->support * def->spacing)};
+    const MethodKernels kernels = mueller_kernels(def);
+    const MuellerConstants own = {.kernel = (DensityKernel)(kernels.density - density_kernels)};
+    const double h = def->support * def->spacing, r = 0.5 * h, half = (5.0625 - 6 * 0.0625) / 0.5;
+    /* -W'(r) / r over shape(r / h), or -W'(r) over (1 - r / h)^2, which is -W'(0) */
+    const double slope = own.kernel == DENSITY_QUINTIC ? -kernels.slope->derivative(r, h) / r / half
+                                                       : -kernel_spiky_derivative(0, h);
+    constants->pressure_scale = (float)(slope * constants->lattice.gradient_scale * constants->unit_volume);
     memcpy(constants->of_method, &own, sizeof own);
 }
 
 static bool sums_poly6(const Constants *constants)
 {
-    return mueller_constants(constants)->poly6;
+    return mueller_constants(constants)->kernel == DENSITY_POLY6;
 }
 
-static const ShaderTerm terms[] = {{"POLY6", sums_poly6}, {0}};
+static bool sums_quintic(const Constants *constants)
+{
+    return mueller_constants(constants)->kernel == DENSITY_QUINTIC;
+}
+
+static const ShaderTerm terms[] = {{"POLY6", sums_poly6}, {"KERNEL_QUINTIC", sums_quintic}, {0}};
 
 static StepFriction mueller_friction(const WorldDef *def, const Lattice *lattice)
 {
     return (StepFriction){.laminar = friction_rate(lattice, def->spacing, FRICTION_LAPLACIAN,
                                                    def->support * def->spacing, mueller_kernels(def).density),
-                          .numerical = mueller_def(def)->numerical_viscosity};
+                          .numerical = numerical_kinematic(def, mueller_def(def)->numerical_viscosity),
+                          .numerical_key = "solver.numerical_viscosity"};
 }
 
 static float mueller_pressure(const Constants *constants, int fluid, float x)
@@ -234,7 +223,7 @@ static double mueller_energy(double x)
     return log1p(x) - x / (1 + x);
 }
 
-/* Symplectic Euler with the drift in two halves around the kick (position Verlet): same single evaluation
+/* Symplectic Euler with the drift in two halves around the kick (position Verlet). Same single evaluation
    of forces and same stability, but second order, and exact for free flight under gravity. */
 static void mueller_substep(const Substep *step)
 {

@@ -2,7 +2,7 @@
 #ifndef SIM_METHODS_MUELLER_MUELLER_H
 #define SIM_METHODS_MUELLER_MUELLER_H
 
-#include "sim/base/memory.h"
+#include "sim/base/base.h"
 #include "sim/step/method.h"
 
 typedef struct MAY_ALIAS MuellerDef {

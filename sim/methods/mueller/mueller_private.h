@@ -4,16 +4,18 @@
 
 #include "sim/methods/mueller/mueller.h"
 
-#include "sim/box/walls.h"
+#include "sim/box/box.h"
 #include "sim/cpu/cpu.h"
 #include "sim/step/method.h"
 
 /* Passes and columns of mueller. */
 
+/* The kernels of solver.density_kernel, in the order of density_kernels. */
+typedef enum DensityKernel { DENSITY_SPIKY, DENSITY_POLY6, DENSITY_QUINTIC } DensityKernel;
+
 /* Constants of mueller alone. */
 typedef struct MuellerConstants {
-    bool poly6; /* the density kernel: (1 - (r/h)^2)^3, or spiky, (1 - r/h)^3 */
-    WallLift lift;
+    DensityKernel kernel;
 } MuellerConstants;
 
 static inline const MuellerConstants *mueller_constants(const Constants *constants)

@@ -6,7 +6,7 @@
 /* Sums of the number density; `place` has 1 / m. */
 PAIR_LOOP(pbf_sums)
 {
-    density_sums(args, begin, end, pbf_constants(args->constants)->gradient, args->own[SQUARES]);
+    density_sums(args, begin, end, pbf_constants(args->constants)->gradient, args->own[SQUARES], NULL);
 }
 
 /* sum (dk_i + dk_j) F x_ij; `place` has dk. */

@@ -1,9 +1,8 @@
 /* after: M. Macklin, M. Müller, "Position Based Fluids", 2013 */
-#include "sim/methods/pbf/pbf_private.h"
-
 #include "sim/base/key_rows.h"
+#include "sim/methods/pbf/pbf_private.h"
 #include "sim/methods/shared/incompressible.h"
-#include "sim/step/iterate.h"
+#include "sim/step/substep.h"
 
 #include <math.h>
 #include <string.h>
@@ -46,7 +45,8 @@ static bool asks_sound(const WorldDef *def)
 
 static void pbf_set(Constants *constants, const WorldDef *def)
 {
-    const IncompressibleFactors factors = incompressible_factors(def, constants);
+    const IncompressibleFactors factors =
+        incompressible_factors(def, constants, &pbf_solver(constants)->factors);
     const PbfConstants own = {
         .sums = {.gradient = factors.gradient,
                  .friction_gradient = factors.friction_gradient,
@@ -57,6 +57,7 @@ static void pbf_set(Constants *constants, const WorldDef *def)
                  .settle_rate = (float)settle_rate(def)},
         .most = pbf_def(def)->iterations,
         .tolerance = pbf_def(def)->tolerance,
+        .factors = factors,
     };
     _Static_assert(sizeof own <= METHOD_CONSTANTS_SIZE, "constants hold it");
     memcpy(constants->of_method, &own, sizeof own);
@@ -72,7 +73,7 @@ enum { LISTS_MOST = 4 };
 static void begin(const Substep *step)
 {
     substep_run(step, &pbf_begin, step->dt);
-    substep_run(step, &pbf_move, step->dt);
+    substep_run(step, &pbf_first, step->dt);
     substep_run(step, &pbf_density, step->dt);
 }
 
@@ -119,8 +120,8 @@ static void hold_density(const Substep *step)
     StepSolve *solve = &step->solves[0];
     Excess left = {0};
     begin(step);
-    const double calm =
-        share < 1 ? share * tolerance : incompressible_rest_residual(step, step->dt, CALM, tolerance);
+    const double calm = share < 1 ? share * tolerance
+                                  : incompressible_rest_residual(step, step->dt, CALM, tolerance, tolerance);
     solve->iterations = iterate(step, calm, &left);
     solve->tolerance = tolerance;
     solve->mean /= share;
@@ -156,7 +157,7 @@ static void pbf_substep(const Substep *step)
         substep_kick(step);
 }
 
-static const Pass *const passes[] = {&pbf_predict, &pbf_begin, &pbf_move,   &pbf_density,
+static const Pass *const passes[] = {&pbf_predict, &pbf_begin, &pbf_first,  &pbf_move, &pbf_density,
                                      &pbf_again,   &pbf_force, &pbf_settle, NULL};
 
 static double pressure_of_multiplier(const Constants *constants)

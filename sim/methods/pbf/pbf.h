@@ -2,7 +2,7 @@
 #ifndef SIM_METHODS_PBF_PBF_H
 #define SIM_METHODS_PBF_PBF_H
 
-#include "sim/base/memory.h"
+#include "sim/base/base.h"
 #include "sim/step/method.h"
 
 typedef struct MAY_ALIAS PbfDef {

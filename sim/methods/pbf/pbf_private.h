@@ -43,6 +43,7 @@ typedef struct PbfConstants {
     PbfBlock sums;
     int most; /* iterations */
     double tolerance;
+    IncompressibleFactors factors;
 } PbfConstants;
 
 static inline const PbfConstants *pbf_solver(const Constants *constants)
@@ -63,6 +64,10 @@ extern const Pass pbf_begin;
 
 /* After another grid in the same step: goes on with the same multipliers. */
 extern const Pass pbf_again;
+
+/* The first move, by the multipliers to begin with, as if the fluid had not fallen; with the support by
+   walls. */
+extern const Pass pbf_first;
 
 /* An iteration: positions by the growth of multipliers; the number density there. */
 extern const Pass pbf_move, pbf_density;

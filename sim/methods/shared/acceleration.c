@@ -1,6 +1,5 @@
-#include "sim/methods/shared/acceleration.h"
-
 #include "sim/cpu/cpu.h"
+#include "sim/methods/shared/terms.h"
 #include "sim/step/substep.h"
 
 #include <math.h>

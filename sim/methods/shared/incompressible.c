@@ -4,15 +4,16 @@
 
 #include <math.h>
 
-typedef struct Sums {
+typedef struct WaveSums {
     double sum[3], squares;
-} Sums;
+} WaveSums;
 
 /* Sums for a wave with phase `wave` per spacing. */
-static Sums wave_sums(const Kernel *kernel, int dimensions, double spacing, double h, const double wave[3])
+static WaveSums wave_sums(const Kernel *kernel, int dimensions, double spacing, double h,
+                          const double wave[3])
 {
     const int reach = (int)ceil(h / spacing), deep = dimensions == 3 ? reach : 0;
-    Sums s = {0};
+    WaveSums s = {0};
     for (int i = -reach; i <= reach; i++)
         for (int j = -reach; j <= reach; j++)
             for (int k = -deep; k <= deep; k++) {
@@ -36,13 +37,36 @@ static JacobiLattice jacobi_lattice(const Kernel *kernel, int dimensions, double
         for (int j = 0; j <= i; j++)
             for (int k = 0; k <= (dimensions == 3 ? j : 0); k++) {
                 const double wave[3] = {M_PI * i / WAVES, M_PI * j / WAVES, M_PI * k / WAVES};
-                const Sums s = wave_sums(kernel, dimensions, spacing, h, wave);
+                const WaveSums s = wave_sums(kernel, dimensions, spacing, h, wave);
                 const double *x = s.sum;
                 lattice.squares = s.squares;
                 lattice.greatest =
                     fmax(lattice.greatest, (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) / s.squares);
             }
     return lattice;
+}
+
+/* Sums over half a lattice, the rows at and below a particle: W over the whole lattice's, and the slope of
+   sum W, unscaled. */
+static void half_lattice(const Kernel *kernel, int dimensions, double spacing, double h, double *part,
+                         double *slope)
+{
+    const int reach = (int)ceil(h / spacing), deep = dimensions == 3 ? reach : 0;
+    double whole = 0, below = 0;
+    *slope = 0;
+    for (int i = -reach; i <= reach; i++)
+        for (int j = -reach; j <= reach; j++)
+            for (int k = -deep; k <= deep; k++) {
+                const double r = spacing * sqrt((double)(i * i + j * j + k * k));
+                if (r >= h)
+                    continue;
+                whole += kernel->value(r, h);
+                if (j > 0)
+                    continue;
+                below += kernel->value(r, h);
+                *slope += r > 0 ? kernel->derivative(r, h) / r * spacing * j : 0;
+            }
+    *part = below / whole;
 }
 
 MethodKernels incompressible_kernels(const WorldDef *def)
@@ -72,24 +96,31 @@ static const double RELAXATION = 1.8;
    thrown. */
 static const double SQUARES_LEAST = 0.1;
 
-IncompressibleFactors incompressible_factors(const WorldDef *def, const Constants *constants)
+IncompressibleFactors incompressible_factors(const WorldDef *def, const Constants *constants,
+                                             const IncompressibleFactors *kept)
 {
+    if (kept->relaxation > 0)
+        return *kept;
     const Lattice *lattice = &constants->lattice;
     const Kernel *kernel = &shape_kernels[INCOMPRESSIBLE_KERNEL];
     const double h = def->support * def->spacing, r = 0.5 * h;
     const double unit = constants->unit_volume, slope = -unit * kernel->derivative(r, h) / r / shape_half();
     const double n0 = unit * lattice->number_density, scale = lattice->density_scale;
     const JacobiLattice jacobi = jacobi_lattice(kernel, def->dimensions, def->spacing, h);
+    double part, surface_slope;
+    half_lattice(kernel, def->dimensions, def->spacing, h, &part, &surface_slope);
     return (IncompressibleFactors){
         .gradient = (float)(slope * scale),
         .friction_gradient = (float)(slope * lattice->gradient_scale),
         .relaxation = (float)(RELAXATION / jacobi.greatest),
         .pressure_of_term = (float)(n0 * n0 * scale / lattice->gradient_scale),
         .least_squares = (float)(SQUARES_LEAST * scale * scale * unit * unit * jacobi.squares),
+        .surface_lack = (float)(1 - part),
+        .surface_slope = (float)(scale * unit * surface_slope),
     };
 }
 
-double incompressible_rest_residual(const Substep *step, double dt, double part, double allowed)
+double incompressible_rest_residual(const Substep *step, double dt, double part, double still, double allowed)
 {
     static const double CALM_LEAST = 1e-6;
     const double h = (double)step->constants->support_radius, courant = step->speed * dt / h;
@@ -97,7 +128,7 @@ double incompressible_rest_residual(const Substep *step, double dt, double part,
     const double falls = dt * dt / h * sqrt((double)(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]));
     if (falls == 0)
         return allowed;
-    return fmin(allowed, fmax(part * fmax(falls, courant * courant), CALM_LEAST));
+    return fmin(allowed, fmax(fmax(fmin(part * falls, still), part * courant * courant), CALM_LEAST));
 }
 
 static float slope(const SolidPair *pair, double scale)

@@ -23,18 +23,24 @@ typedef struct IncompressibleFactors {
     float relaxation;        /* of Jacobi */
     float pressure_of_term;  /* p over k */
     float least_squares;     /* a part of sum F^2 r^2 on the lattice, times U^2, 1/m2 */
+    float surface_lack;      /* the outermost row of a half-filled lattice: 1 - n / n0, */
+    float surface_slope;     /* and |sum F x_ij|, times U, 1/m */
 } IncompressibleFactors;
 
-/* Needs the lattice and the unit volume of `constants`. */
-IncompressibleFactors incompressible_factors(const WorldDef *def, const Constants *constants);
+/* Needs the lattice and the unit volume of `constants`. `kept`: the factors of these constants, or zeros;
+   then they are summed over lattices, once in the life of a world: no live key changes them. */
+IncompressibleFactors incompressible_factors(const WorldDef *def, const Constants *constants,
+                                             const IncompressibleFactors *kept);
 
 /* Tolerance of a step of an incompressible method in calm fluid. */
 
 /* A solver's residual e causes noise of pressure, rho (h / dt)^2 e. Pressure itself changes from particle to
    particle by rho h times the acceleration of fluid, g or v^2 / h. So steps of calm fluid leave less than
    `allowed`: the residual with noise equal to `part` of that change, but at least 1e-6, for single precision.
-   A smaller residual means less boiling. `dt`: the step, s. Without gravity the result is `allowed`. */
-double incompressible_rest_residual(const Substep *step, double dt, double part, double allowed);
+   A smaller residual means less boiling. `still`: the most that fluid at rest leaves. `dt`: the step, s.
+   Without gravity the result is `allowed`. */
+double incompressible_rest_residual(const Substep *step, double dt, double part, double still,
+                                    double allowed);
 
 /* The pairs of sim/methods/shared/pair_incompressible.h with boundary particles, one at a time
  * (sim/cpu/forces.c). */

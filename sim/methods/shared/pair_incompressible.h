@@ -37,11 +37,11 @@ SIMD_INLINE void density_by(const PairArgs *args, const ImageParticle *image, f8
     sum->squares += f * f * d.r2 * inverse_mass;
 }
 
-SIMD_INLINE void density_of(const PairArgs *args, size_t i, const Near near, const Images *images,
-                            DensitySums *sum)
+SIMD_INLINE void density_of(const PairArgs *args, size_t i, const NeighbourRange near,
+                            const LaneImages *images, DensitySums *sum)
 {
     const f8 inverse_h = f8_splat(1 / args->constants->support_radius);
-    const Place at = place_of(args, i);
+    const LaneVector at = place_of(args, i);
     NEIGHBOURS (near, j) {
         const f8x4 p = f8_load4(args->place, j);
         Separation d = apart(at, p);
@@ -56,21 +56,33 @@ SIMD_INLINE void density_of(const PairArgs *args, size_t i, const Near near, con
     }
 }
 
-/* Sum of W into `number_density`, of F x_ij into the force, of F^2 r^2 / m_j into `squares`; `place` has 1 /
-   m. */
-SIMD_INLINE void density_sums(const PairArgs *args, size_t begin, size_t end, float gradient, float *squares)
+/* |sum F x_ij|, where the image of the particle itself counts once: how the number density falls. */
+SIMD_INLINE f8 slope_of(const PairArgs *args, const SelfLanes *own, const LaneImages *images,
+                        const DensitySums *sum)
+{
+    const f8x4 at = f8_load4(args->place, own->j);
+    DensitySums once = *sum;
+    for (int m = 1; m <= images->count; m++)
+        density_by(args, &images->of[m], at, -1, f8_splat(0), &once);
+    return f8_sqrt(once.x * once.x + once.y * once.y + once.z * once.z);
+}
+
+/* Sum of W into `number_density`, of F x_ij into the force, of F^2 r^2 / m_j into `squares`, and slope_of
+   into `slope`, unless NULL; `place` has 1 / m. */
+SIMD_INLINE void density_sums(const PairArgs *args, size_t begin, size_t end, float gradient, float *squares,
+                              float *slope)
 {
     const f8 scale = f8_splat(args->constants->kernel_scale), g = f8_splat(gradient), zero = f8_splat(0);
     const WallsFar far = out_of_sight(args->constants);
-    Images images;
+    LaneImages images;
     GROUPS (i, begin, end) {
         const SelfLanes own = themselves(args, i);
         DensitySums sum = {f8_splat(1), zero, zero, zero, zero};
         const bool mirrored = images_of(args, &far, i, begin, end, &images);
         if (!mirrored)
-            density_of(args, i, near_of(args, i), NULL, &sum);
+            density_of(args, i, neighbour_range_of(args, i), NULL, &sum);
         else
-            density_of(args, i, near_of(args, i), &images, &sum);
+            density_of(args, i, neighbour_range_of(args, i), &images, &sum);
         for (int m = 1; m <= images.count; m++)
             density_by(args, &images.of[m], f8_load4(args->place, own.j), 2, zero, &sum);
         lanes_store(args->number_density, i, begin, end, scale * sum.n);
@@ -78,13 +90,15 @@ SIMD_INLINE void density_sums(const PairArgs *args, size_t begin, size_t end, fl
         lanes_store(args->fy, i, begin, end, g * sum.y);
         lanes_store(args->fz, i, begin, end, g * sum.z);
         lanes_store(squares, i, begin, end, g * g * sum.squares);
+        if (slope)
+            lanes_store(slope, i, begin, end, g * slope_of(args, &own, &images, &sum));
     }
 }
 
 /* --- push by k --- */
 
 /* (k_i + k_j) F x_ij of an image, in the particle's axes. */
-SIMD_INLINE void push_by(const PairArgs *args, const ImageParticle *image, f8 ki, f8x4 near, Place *sum)
+SIMD_INLINE void push_by(const PairArgs *args, const ImageParticle *image, f8 ki, f8x4 near, LaneVector *sum)
 {
     const Separation d = apart(image->at, near);
     const f8 push = (ki + d.term) * shape(image_q(args->constants, d.r2), INCOMPRESSIBLE_KERNEL);
@@ -93,11 +107,11 @@ SIMD_INLINE void push_by(const PairArgs *args, const ImageParticle *image, f8 ki
     sum->z += image->sign.z * push * d.z;
 }
 
-SIMD_INLINE void push_of(const PairArgs *args, size_t i, const Near near, f8 ki, const Images *images,
-                         Place *sum)
+SIMD_INLINE void push_of(const PairArgs *args, size_t i, const NeighbourRange near, f8 ki,
+                         const LaneImages *images, LaneVector *sum)
 {
     const f8 inverse_h = f8_splat(1 / args->constants->support_radius);
-    const Place at = place_of(args, i);
+    const LaneVector at = place_of(args, i);
     NEIGHBOURS (near, j) {
         const f8x4 p = f8_load4(args->place, j);
         Separation d = apart(at, p);
@@ -115,16 +129,16 @@ SIMD_INLINE void push_sums(const PairArgs *args, size_t begin, size_t end, float
 {
     const f8 g = f8_splat(gradient), zero = f8_splat(0);
     const WallsFar far = out_of_sight(args->constants);
-    Images images;
+    LaneImages images;
     GROUPS (i, begin, end) {
         const SelfLanes own = themselves(args, i);
         const f8 ki = f8_load4(args->place, own.j).w;
-        Place sum = {zero, zero, zero};
+        LaneVector sum = {zero, zero, zero};
         const bool mirrored = images_of(args, &far, i, begin, end, &images);
         if (!mirrored)
-            push_of(args, i, near_of(args, i), ki, NULL, &sum);
+            push_of(args, i, neighbour_range_of(args, i), ki, NULL, &sum);
         else
-            push_of(args, i, near_of(args, i), ki, &images, &sum);
+            push_of(args, i, neighbour_range_of(args, i), ki, &images, &sum);
         for (int m = 1; m <= images.count; m++)
             push_by(args, &images.of[m], ki, f8_load4(args->place, own.j), &sum);
         lanes_store(args->fx, i, begin, end, g * sum.x);
@@ -137,8 +151,8 @@ SIMD_INLINE void push_sums(const PairArgs *args, size_t begin, size_t end, float
 
 /* Friction of particles at `at` with velocities `vi`, without the factor of the gradient; distances below
    `nearest` (in h) count as `nearest`. */
-SIMD_INLINE void friction_of(const PairArgs *args, const Place at, const Near near, f8x4 vi, f8 mi,
-                             float nearest, Place *sum)
+SIMD_INLINE void friction_of(const PairArgs *args, const LaneVector at, const NeighbourRange near, f8x4 vi,
+                             f8 mi, float nearest, LaneVector *sum)
 {
     const Constants *s = args->constants;
     const f8 inverse_h = f8_splat(1 / s->support_radius), least = f8_splat(nearest);
@@ -160,21 +174,21 @@ SIMD_INLINE void friction_sums(const PairArgs *args, size_t begin, size_t end, f
     const f8 g = f8_splat(gradient), zero = f8_splat(0);
     const float half = 0.5f * s->spacing / s->support_radius;
     const WallsFar far = out_of_sight(s);
-    Images images;
+    LaneImages images;
     GROUPS (i, begin, end) {
         const SelfLanes own = themselves(args, i);
-        const Near near = near_of(args, i);
+        const NeighbourRange near = neighbour_range_of(args, i);
         const f8x4 vi = motion(args, own.j);
         const f8 mi = args->viscosity ? f8_load(args->viscosity + i) : f8_splat(s->viscosity[0]);
-        Place sum = {zero, zero, zero};
+        LaneVector sum = {zero, zero, zero};
         friction_of(args, place_of(args, i), near, vi, mi, 1e-6f, &sum);
         const bool mirrored = !s->no_slip && images_of(args, &far, i, begin, end, &images);
         for (int m = 1; mirrored && m <= images.count; m++) {
             const ImageParticle *image = &images.of[m];
             const f8x4 v = {image->sign.x * vi.x, image->sign.y * vi.y, image->sign.z * vi.z, vi.w};
-            Place part = {zero, zero, zero};
+            LaneVector part = {zero, zero, zero};
             friction_of(args, image->at, near, v, mi, half, &part);
-            friction_of(args, image->at, near_themselves(&own), v, mi, half, &part);
+            friction_of(args, image->at, neighbours_of_own_lanes(&own), v, mi, half, &part);
             sum.x += image->sign.x * part.x;
             sum.y += image->sign.y * part.y;
             sum.z += image->sign.z * part.z;

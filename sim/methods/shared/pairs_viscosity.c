@@ -1,8 +1,8 @@
-/* Pair sums of implicit viscosity: see sim/methods/shared/viscosity.h. `place` has {x, mu}, `motion` {z, V},
-   with -V for boundary particles. Where walls let fluid slip, images of fluid behind walls (sim/box/walls.h)
+/* Pair sums of implicit viscosity: see sim/methods/shared/terms.h. `place` has {x, mu}, `motion` {z, V},
+   with -V for boundary particles. Where walls let fluid slip, images of fluid behind walls (sim/box/box.h)
    take part, with z in the mirror: symmetric and positive like pairs. */
 #include "sim/cpu/pair_loop.h"
-#include "sim/methods/shared/viscosity.h"
+#include "sim/methods/shared/terms.h"
 
 /* F R (mu_i + mu_j) V_j of a pair. */
 SIMD_INLINE f8 weight(const PairArgs *args, Separation d, f8 mi, f8 volume, const ShapeKernel kernel)
@@ -13,11 +13,11 @@ SIMD_INLINE f8 weight(const PairArgs *args, Separation d, f8 mi, f8 volume, cons
 }
 
 /* A symmetric matrix. */
-typedef struct Block {
+typedef struct FrictionMatrix {
     f8 xx, yy, zz, xy, yz, zx;
-} Block;
+} FrictionMatrix;
 
-SIMD_INLINE void block_add(Block *sum, f8 c, Separation d)
+SIMD_INLINE void block_add(FrictionMatrix *sum, f8 c, Separation d)
 {
     const f8 x = c * d.x, y = c * d.y, z = c * d.z;
     sum->xx += x * d.x, sum->yy += y * d.y, sum->zz += z * d.z;
@@ -25,14 +25,15 @@ SIMD_INLINE void block_add(Block *sum, f8 c, Separation d)
 }
 
 SIMD_INLINE void block_store(float *const *column, size_t i, size_t begin, size_t end, f8 scale,
-                             const Block *m)
+                             const FrictionMatrix *m)
 {
     const f8 all[6] = {m->xx, m->yy, m->zz, m->xy, m->yz, m->zx};
     for (int k = 0; k < 6; k++)
         lanes_store(column[k], i, begin, end, scale * all[k]);
 }
 
-SIMD_INLINE void place_store(float *const *column, size_t i, size_t begin, size_t end, f8 scale, Place sum)
+SIMD_INLINE void place_store(float *const *column, size_t i, size_t begin, size_t end, f8 scale,
+                             LaneVector sum)
 {
     lanes_store(column[0], i, begin, end, scale * sum.x);
     lanes_store(column[1], i, begin, end, scale * sum.y);
@@ -41,7 +42,7 @@ SIMD_INLINE void place_store(float *const *column, size_t i, size_t begin, size_
 
 /* Images of a group with friction; none where walls hold the fluid: there the walls' own friction is all. */
 SIMD_INLINE bool rubbing_images(const PairArgs *args, const WallsFar *far, size_t i, size_t begin, size_t end,
-                                Images *images)
+                                LaneImages *images)
 {
     return !args->constants->no_slip && images_of(args, far, i, begin, end, images);
 }
@@ -51,16 +52,17 @@ SIMD_INLINE f8x4 in_mirror(f8x4 v, const ImageParticle *image)
     return (f8x4){image->sign.x * v.x, image->sign.y * v.y, image->sign.z * v.z, v.w};
 }
 
-SIMD_INLINE void place_add(Place *sum, const ImageParticle *image, Place part)
+SIMD_INLINE void place_add(LaneVector *sum, const ImageParticle *image, LaneVector part)
 {
     sum->x += image->sign.x * part.x;
     sum->y += image->sign.y * part.y;
     sum->z += image->sign.z * part.z;
 }
 
-SIMD_INLINE void block_add_mirrored(Block *sum, const ImageParticle *image, const Block *part)
+SIMD_INLINE void block_add_mirrored(FrictionMatrix *sum, const ImageParticle *image,
+                                    const FrictionMatrix *part)
 {
-    const Place sign = image->sign;
+    const LaneVector sign = image->sign;
     sum->xx += part->xx, sum->yy += part->yy, sum->zz += part->zz;
     sum->xy += sign.x * sign.y * part->xy;
     sum->yz += sign.y * sign.z * part->yz;
@@ -69,19 +71,19 @@ SIMD_INLINE void block_add_mirrored(Block *sum, const ImageParticle *image, cons
 
 /* Explicit friction; sums of all blocks, and twice the sum of the blocks of solids. */
 typedef struct PairSums {
-    Place force;
-    Block all, held;
+    LaneVector force;
+    FrictionMatrix all, held;
 } PairSums;
 
 SIMD_INLINE PairSums nothing_begun(void)
 {
     const f8 zero = f8_splat(0);
-    const Block none = {zero, zero, zero, zero, zero, zero};
+    const FrictionMatrix none = {zero, zero, zero, zero, zero, zero};
     return (PairSums){{zero, zero, zero}, none, none};
 }
 
-SIMD_INLINE void begin_of(const PairArgs *args, const Place at, const Near near, f8 mi, f8x4 vi,
-                          const ShapeKernel kernel, const bool solids, PairSums *sum)
+SIMD_INLINE void begin_of(const PairArgs *args, const LaneVector at, const NeighbourRange near, f8 mi,
+                          f8x4 vi, const ShapeKernel kernel, const bool solids, PairSums *sum)
 {
     NEIGHBOURS (near, j) {
         const Separation d = separation(args, at, j);
@@ -102,9 +104,9 @@ SIMD_INLINE void begin_range(const PairArgs *args, size_t begin, size_t end, con
 {
     const Constants *s = args->constants;
     const WallsFar far = out_of_sight(s);
-    Images images;
+    LaneImages images;
     GROUPS (i, begin, end) {
-        const Near near = near_of(args, i);
+        const NeighbourRange near = neighbour_range_of(args, i);
         const SelfLanes own = themselves(args, i);
         const f8 mi = f8_load(args->term[MISS] + i); /* viscosity of i, until the pass ends */
         const f8x4 vi = motion(args, own.j);
@@ -116,7 +118,7 @@ SIMD_INLINE void begin_range(const PairArgs *args, size_t begin, size_t end, con
             const f8x4 v = in_mirror(vi, image);
             PairSums part = nothing_begun();
             begin_of(args, image->at, near, mi, v, kernel, solids, &part);
-            begin_of(args, image->at, near_themselves(&own), mi, v, kernel, solids, &part);
+            begin_of(args, image->at, neighbours_of_own_lanes(&own), mi, v, kernel, solids, &part);
             place_add(&sum.force, image, part.force);
             block_add_mirrored(&sum.all, image, &part.all);
             block_add_mirrored(&sum.held, image, &part.held);
@@ -129,8 +131,8 @@ SIMD_INLINE void begin_range(const PairArgs *args, size_t begin, size_t end, con
     }
 }
 
-SIMD_INLINE void product_of(const PairArgs *args, const Place at, const Near near, f8 mi, f8x4 z,
-                            const ShapeKernel kernel, Place *sum)
+SIMD_INLINE void product_of(const PairArgs *args, const LaneVector at, const NeighbourRange near, f8 mi,
+                            f8x4 z, const ShapeKernel kernel, LaneVector *sum)
 {
     NEIGHBOURS (near, j) {
         const Separation d = separation(args, at, j);
@@ -147,20 +149,21 @@ SIMD_INLINE void product_range(const PairArgs *args, size_t begin, size_t end, c
     const Constants *s = args->constants;
     const f8 zero = f8_splat(0);
     const WallsFar far = out_of_sight(s);
-    Images images;
+    LaneImages images;
     GROUPS (i, begin, end) {
-        const Near near = near_of(args, i);
+        const NeighbourRange near = neighbour_range_of(args, i);
         const SelfLanes own = themselves(args, i);
         const f8x4 z = motion(args, own.j);
         const f8 mi = f8_load4(args->place, own.j).w;
-        Place sum = {zero, zero, zero};
+        LaneVector sum = {zero, zero, zero};
         product_of(args, place_of(args, i), near, mi, z, kernel, &sum);
         const bool mirrored = rubbing_images(args, &far, i, begin, end, &images);
         for (int m = 1; mirrored && m <= images.count; m++) {
             const ImageParticle *image = &images.of[m];
-            Place part = {zero, zero, zero};
+            LaneVector part = {zero, zero, zero};
             product_of(args, image->at, near, mi, in_mirror(z, image), kernel, &part);
-            product_of(args, image->at, near_themselves(&own), mi, in_mirror(z, image), kernel, &part);
+            product_of(args, image->at, neighbours_of_own_lanes(&own), mi, in_mirror(z, image), kernel,
+                       &part);
             place_add(&sum, image, part);
         }
         place_store(args->term + PRODUCT, i, begin, end,

@@ -1,7 +1,6 @@
-#include "sim/methods/shared/viscosity.h"
-
 #include "sim/def/fluids.h"
-#include "sim/step/iterate.h"
+#include "sim/methods/shared/terms.h"
+#include "sim/step/substep.h"
 
 #include <math.h>
 #include <string.h>
@@ -294,7 +293,7 @@ const ColumnDef viscosity_columns[] = {
     {0},
 };
 
-/* The term of friction at the end of a step, for all methods: sim/methods/shared/viscosity.h. */
+/* The term of friction at the end of a step, for all methods: sim/methods/shared/terms.h. */
 
 static bool needed(const Constants *constants)
 {

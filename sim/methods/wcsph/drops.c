@@ -1,12 +1,11 @@
-/* Surface tension by curvature keeps momentum: on a body of connected fluid the sum of its forces is zero
+/* Surface tension by curvature keeps momentum. On a body of connected fluid the sum of its forces is zero
    along each axis without a wall next to the body, so the mean is taken off each particle. Bodies are found
    by union of neighbours of a fluid, after J. Jaiganesh and M. Burtscher, "A high-performance connected
    components implementation for GPUs", 2018. Roots are the least index of a body and sums are integers: no
    bit depends on threads. */
-#include "sim/methods/wcsph/wcsph_private.h"
-
 #include "shaders/sim/wcsph/drops_block.h"
-#include "sim/box/walls.h"
+#include "sim/box/box.h"
+#include "sim/methods/wcsph/wcsph_private.h"
 
 #include <math.h>
 

@@ -25,7 +25,7 @@ typedef struct Symmetric {
 
 /* m^-1 b; 0 where det (3 m / trace) is below a quarter, since neighbours hardly span the space there.
    Inside the fluid det is 1, in a corner of the lattice 0.77. */
-static __attribute__((unused)) Place renormalise(const Symmetric m, const Place b)
+static __attribute__((unused)) LaneVector renormalise(const Symmetric m, const LaneVector b)
 {
     const f8 cxx = m.yy * m.zz - m.yz * m.yz, cyy = m.xx * m.zz - m.zx * m.zx,
              czz = m.xx * m.yy - m.xy * m.xy;
@@ -33,8 +33,9 @@ static __attribute__((unused)) Place renormalise(const Symmetric m, const Place 
              czx = m.xy * m.yz - m.zx * m.yy;
     const f8 det = m.xx * cxx + m.xy * cxy + m.zx * czx, mean = (m.xx + m.yy + m.zz) / f8_splat(3);
     const f8 scale = f8_masked(det > f8_splat(0.25f) * (mean * mean * mean), f8_splat(1) / det);
-    return (Place){scale * (cxx * b.x + cxy * b.y + czx * b.z), scale * (cxy * b.x + cyy * b.y + cyz * b.z),
-                   scale * (czx * b.x + cyz * b.y + czz * b.z)};
+    return (LaneVector){scale * (cxx * b.x + cxy * b.y + czx * b.z),
+                        scale * (cxy * b.x + cyy * b.y + cyz * b.z),
+                        scale * (czx * b.x + cyz * b.y + czz * b.z)};
 }
 
 /* Weights of wall images in the sums of wcsph, and continuation of pressure behind walls. For files
@@ -51,14 +52,14 @@ SIMD_INLINE f8 image_shape(f8 q, f8 apart, const ShapeKernel kernel)
 /* Continuation of pressure behind walls: p V0^2 of the image of j is p V0^2 of j plus g0 + g.x_ij, with
    x_ij = x_i' - x_j, since x_j' - x_j = 2 x_ij + x_i - x_i' along mirrored axes. The addition fades in over
    the pressure of a layer, so that a drop on a wall falls freely. */
-typedef struct Rise {
+typedef struct DensitySlope {
     f8 g0, gx, gy, gz, inverse_layer;
-} Rise;
+} DensitySlope;
 
 /* Weight of a layer under gravity: per particle of a group rho0 V0^2 g, and 1 over its length times the
    spacing. */
 typedef struct Layers {
-    Place pull;
+    LaneVector pull;
     f8 inverse;
 } Layers;
 
@@ -82,20 +83,20 @@ static __attribute__((unused)) Layers layers_of(const PairArgs *args, size_t i, 
     return (Layers){{f8_load(pull[0]), f8_load(pull[1]), f8_load(pull[2])}, f8_load(inverse)};
 }
 
-static __attribute__((unused)) Rise rise_of(const PairArgs *args, size_t i, const ImageParticle *image,
-                                            const Layers *layers)
+static __attribute__((unused)) DensitySlope rise_of(const PairArgs *args, size_t i,
+                                                    const ImageParticle *image, const Layers *layers)
 {
     const f8 zero = f8_splat(0), two = f8_splat(2);
-    const Place x = place_of(args, i);
+    const LaneVector x = place_of(args, i);
     const f8 gx = f8_masked(image->sign.x < zero, layers->pull.x),
              gy = f8_masked(image->sign.y < zero, layers->pull.y),
              gz = f8_masked(image->sign.z < zero, layers->pull.z);
-    return (Rise){gx * (x.x - image->at.x) + gy * (x.y - image->at.y) + gz * (x.z - image->at.z), two * gx,
-                  two * gy, two * gz, layers->inverse};
+    return (DensitySlope){gx * (x.x - image->at.x) + gy * (x.y - image->at.y) + gz * (x.z - image->at.z),
+                          two * gx, two * gy, two * gz, layers->inverse};
 }
 
 /* Pressure term of the image of j; a push never becomes a pull. */
-SIMD_INLINE f8 image_term(const Rise rise, f8 term, Separation d)
+SIMD_INLINE f8 image_term(const DensitySlope rise, f8 term, Separation d)
 {
     const f8 zero = f8_splat(0), share = lesser(greater(term * rise.inverse_layer, zero), f8_splat(1));
     const f8 more = rise.g0 + rise.gx * d.x + rise.gy * d.y + rise.gz * d.z;
@@ -106,14 +107,14 @@ SIMD_INLINE f8 image_term(const Rise rise, f8 term, Separation d)
    compiled for each instruction set. */
 
 /* The particles of a group, or an image of each particle. */
-typedef struct Seeker {
-    Place at, sign;
+typedef struct SumPoint {
+    LaneVector at, sign;
     bool image;
-} Seeker;
+} SumPoint;
 
 /* Fills in the seekers of a group, the particles first; returns their number. */
-SIMD_INLINE int seekers_of(const PairArgs *args, const WallsFar *far, size_t i, size_t begin, size_t end,
-                           Images *images)
+SIMD_INLINE int sum_points_of(const PairArgs *args, const WallsFar *far, size_t i, size_t begin, size_t end,
+                              LaneImages *images)
 {
     const f8 one = f8_splat(1);
     const bool has = images_of(args, far, i, begin, end, images);
@@ -121,17 +122,18 @@ SIMD_INLINE int seekers_of(const PairArgs *args, const WallsFar *far, size_t i, 
     return has ? images->count + 1 : 1;
 }
 
-SIMD_INLINE Seeker seeker_of(const Images *images, int m)
+SIMD_INLINE SumPoint sum_point_of(const LaneImages *images, int m)
 {
-    return (Seeker){images->of[m].at, images->of[m].sign, m > 0};
+    return (SumPoint){images->of[m].at, images->of[m].sign, m > 0};
 }
 
 /* Continuation of pressure from particles to images found; 0 for particles. */
-SIMD_INLINE Rise seeker_rise(const PairArgs *args, size_t i, const Seeker *from, const Layers *layers)
+SIMD_INLINE DensitySlope sum_point_slope(const PairArgs *args, size_t i, const SumPoint *from,
+                                         const Layers *layers)
 {
     const f8 zero = f8_splat(0);
     const ImageParticle image = {from->at, from->sign};
-    return from->image ? rise_of(args, i, &image, layers) : (Rise){zero, zero, zero, zero, zero};
+    return from->image ? rise_of(args, i, &image, layers) : (DensitySlope){zero, zero, zero, zero, zero};
 }
 
 /* F of a pair, up to scale. */
@@ -146,16 +148,16 @@ SIMD_INLINE f8 weight_of(const PairArgs *args, f8 r2, bool image, const ShapeKer
 }
 
 /* The matrix in a mirror's axes. */
-SIMD_INLINE Symmetric mirrored(const Symmetric m, const Place sign)
+SIMD_INLINE Symmetric mirrored(const Symmetric m, const LaneVector sign)
 {
     return (Symmetric){
         m.xx, m.yy, m.zz, m.xy * sign.x * sign.y, m.yz * sign.y * sign.z, m.zx * sign.z * sign.x};
 }
 
-SIMD_INLINE Place times(const Symmetric m, f8 x, f8 y, f8 z)
+SIMD_INLINE LaneVector times(const Symmetric m, f8 x, f8 y, f8 z)
 {
-    return (Place){m.xx * x + m.xy * y + m.zx * z, m.xy * x + m.yy * y + m.yz * z,
-                   m.zx * x + m.yz * y + m.zz * z};
+    return (LaneVector){m.xx * x + m.xy * y + m.zx * z, m.xy * x + m.yy * y + m.yz * z,
+                        m.zx * x + m.yz * y + m.zz * z};
 }
 
 /* C of sim/methods/wcsph/wcsph_passes.c: for a group, and for its next neighbours. */

@@ -1,11 +1,11 @@
 /* Additional sums of wcsph over images of the fluid in the box's walls: rate of density and pressure, sums
    for shifting, and friction of slip walls. Images take no part in diffusion and artificial viscosity. See
-   sim/box/walls.h. */
+   sim/box/box.h. */
 #include "sim/methods/wcsph/pair_wcsph.h"
 
 /* Sum of F v_ij . x_ij over the neighbours of the images of group i. */
-SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const Near near, const ImageParticle *image,
-                          const ShapeKernel kernel)
+SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const NeighbourRange near,
+                          const ImageParticle *image, const ShapeKernel kernel)
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), least2 = f8_splat(least * least);
@@ -23,12 +23,13 @@ SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const Near near, const
 }
 
 /* Sums over the neighbours of a group's images, in the mirrors' axes. */
-typedef struct Found {
+typedef struct ImageSums {
     f8 fx, fy, fz, ex, ey, ez, full, dense;
-} Found;
+} ImageSums;
 
-SIMD_INLINE void image_push(const PairArgs *args, size_t i, const Near near, const ImageParticle *image,
-                            const Rise rise, const ShapeKernel kernel, const bool shifts, Found *sum)
+SIMD_INLINE void image_push(const PairArgs *args, size_t i, const NeighbourRange near,
+                            const ImageParticle *image, const DensitySlope rise, const ShapeKernel kernel,
+                            const bool shifts, ImageSums *sum)
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), least2 = f8_splat(least * least);
@@ -51,8 +52,9 @@ SIMD_INLINE void image_push(const PairArgs *args, size_t i, const Near near, con
    stress along its normal and no shear. Uses the kernel's plain slope, since friction need not separate
    particles. In Morris's form, distances count as at least half a spacing, as in the lattice at walls.
    Otherwise a particle on a wall would reverse its velocity in a step that is stable elsewhere. */
-SIMD_INLINE void image_rub(const PairArgs *args, size_t i, const Near near, const ImageParticle *image,
-                           const ShapeKernel kernel, const bool radial, Found *sum)
+SIMD_INLINE void image_rub(const PairArgs *args, size_t i, const NeighbourRange near,
+                           const ImageParticle *image, const ShapeKernel kernel, const bool radial,
+                           ImageSums *sum)
 {
     const Constants *s = args->constants;
     const WcsphBlock *w = wcsph_constants(s);
@@ -77,7 +79,7 @@ SIMD_INLINE void image_rub(const PairArgs *args, size_t i, const Near near, cons
 }
 
 SIMD_INLINE void add_found(const PairArgs *args, size_t i, size_t begin, size_t end,
-                           const ImageParticle *image, const Found found, const bool shifts)
+                           const ImageParticle *image, const ImageSums found, const bool shifts)
 {
     const Constants *s = args->constants;
     const f8 gradient = f8_splat(wcsph_constants(s)->gradient_scale);
@@ -97,12 +99,12 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
 {
     const f8 gradient = f8_splat(wcsph_constants(args->constants)->gradient_scale);
     const WallsFar far = out_of_sight(args->constants);
-    Images images;
+    LaneImages images;
     GROUPS (i, begin, end) {
         if (!images_of(args, &far, i, begin, end, &images))
             continue;
         const SelfLanes own = themselves(args, i);
-        const Near near = near_of(args, i), self = near_themselves(&own);
+        const NeighbourRange near = neighbour_range_of(args, i), self = neighbours_of_own_lanes(&own);
         f8 sum = f8_splat(0);
         for (int m = 1; m <= images.count; m++) {
             const ImageParticle image = images.of[m];
@@ -121,16 +123,16 @@ SIMD_INLINE void force_by(const PairArgs *args, size_t i, size_t begin, size_t e
                                                        friction */
     const f8 zero = f8_splat(0);
     const SelfLanes own = themselves(args, i);
-    const Rise rise = rise_of(args, i, image, layers);
-    Found found = {zero, zero, zero, zero, zero, zero, zero, zero};
-    image_push(args, i, near_of(args, i), image, rise, kernel, shifts, &found);
-    image_push(args, i, near_themselves(&own), image, rise, kernel, shifts, &found);
+    const DensitySlope rise = rise_of(args, i, image, layers);
+    ImageSums found = {zero, zero, zero, zero, zero, zero, zero, zero};
+    image_push(args, i, neighbour_range_of(args, i), image, rise, kernel, shifts, &found);
+    image_push(args, i, neighbours_of_own_lanes(&own), image, rise, kernel, shifts, &found);
     if (images_rub && wcsph_constants(s)->radial_friction > 0) {
-        image_rub(args, i, near_of(args, i), image, kernel, true, &found);
-        image_rub(args, i, near_themselves(&own), image, kernel, true, &found);
+        image_rub(args, i, neighbour_range_of(args, i), image, kernel, true, &found);
+        image_rub(args, i, neighbours_of_own_lanes(&own), image, kernel, true, &found);
     } else if (images_rub) {
-        image_rub(args, i, near_of(args, i), image, kernel, false, &found);
-        image_rub(args, i, near_themselves(&own), image, kernel, false, &found);
+        image_rub(args, i, neighbour_range_of(args, i), image, kernel, false, &found);
+        image_rub(args, i, neighbours_of_own_lanes(&own), image, kernel, false, &found);
     }
     add_found(args, i, begin, end, image, found, shifts);
 }
@@ -138,7 +140,7 @@ SIMD_INLINE void force_by(const PairArgs *args, size_t i, size_t begin, size_t e
 SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
 {
     const WallsFar far = out_of_sight(args->constants);
-    Images images;
+    LaneImages images;
     GROUPS (i, begin, end) {
         if (!images_of(args, &far, i, begin, end, &images))
             continue;

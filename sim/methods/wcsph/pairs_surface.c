@@ -1,6 +1,6 @@
 /* Additional sums of wcsph for interfaces between fluids with a high density contrast. With t = p V^2 and
    w_ij = 1 - 4 rho_i / rho_j if the rest density of j is more than 4 times that of i, w_ji = -w_ij:
-     force_i += sum w_ij (t_i - t_j) F x_ij, so a pair has (1 + w) t_i + (1 - w) t_j;
+     force_i += sum w_ij (t_i - t_j) F x_ij, so a pair has (1 + w) t_i + (1 - w) t_j.
      d rho_i / dt += (rho0_i / n0) (-sum w_ij F v_ij . x_ij), with the force as adjoint.
    Momentum and energy remain conserved. With corrected gradients, x_ij becomes (1 + C) x_ij with the C of
    the particle of t or of the rate.
@@ -26,19 +26,20 @@ SIMD_INLINE f8 contrast(f8 mine, f8 theirs)
 }
 
 /* x and C x. */
-SIMD_INLINE Place whole(const Symmetric c, const Place x)
+SIMD_INLINE LaneVector whole(const Symmetric c, const LaneVector x)
 {
-    const Place more = times(c, x.x, x.y, x.z);
-    return (Place){x.x + more.x, x.y + more.y, x.z + more.z};
+    const LaneVector more = times(c, x.x, x.y, x.z);
+    return (LaneVector){x.x + more.x, x.y + more.y, x.z + more.z};
 }
 
 /* Sums of w F x_ij and w t_j (1 + C_j) F x_ij. */
-typedef struct Between {
-    Place here, there;
-} Between;
+typedef struct PairVectors {
+    LaneVector here, there;
+} PairVectors;
 
-SIMD_INLINE void between(const PairArgs *args, const Near near, const Seeker *from, f8 density,
-                         const Rise *rise, const ShapeKernel kernel, const bool corrected, Between *sum)
+SIMD_INLINE void between(const PairArgs *args, const NeighbourRange near, const SumPoint *from, f8 density,
+                         const DensitySlope *rise, const ShapeKernel kernel, const bool corrected,
+                         PairVectors *sum)
 {
     NEIGHBOURS (near, j) {
         const f8 w = contrast(density, f8_gather(args->own[REST_DENSITY], j));
@@ -47,7 +48,7 @@ SIMD_INLINE void between(const PairArgs *args, const Near near, const Seeker *fr
         const Separation d = separation(args, from->at, j);
         const f8 f = w * weight_of(args, d.r2, from->image, kernel);
         const f8 push = f * (from->image ? image_term(*rise, d.term, d) : d.term);
-        Place x = {d.x, d.y, d.z};
+        LaneVector x = {d.x, d.y, d.z};
         if (corrected)
             x = whole(correction_there(args, j), x);
         sum->here.x += f * d.x, sum->here.y += f * d.y, sum->here.z += f * d.z;
@@ -55,16 +56,17 @@ SIMD_INLINE void between(const PairArgs *args, const Near near, const Seeker *fr
     }
 }
 
-SIMD_INLINE void push_of(const PairArgs *args, size_t i, size_t begin, size_t end, const Seeker *from,
+SIMD_INLINE void push_of(const PairArgs *args, size_t i, size_t begin, size_t end, const SumPoint *from,
                          const Layers *layers, const ShapeKernel kernel, const bool corrected)
 {
     const f8 zero = f8_splat(0), pi = f8_load(args->pressure_term + i);
     const f8 gradient = f8_splat(wcsph_constants(args->constants)->gradient_scale);
-    const Rise rise = seeker_rise(args, i, from, layers);
-    Between sum = {{zero, zero, zero}, {zero, zero, zero}};
-    between(args, near_of(args, i), from, f8_load(args->own[REST_DENSITY] + i), &rise, kernel, corrected,
-            &sum);
-    const Place here = corrected ? whole(mirrored(correction_of(args, i), from->sign), sum.here) : sum.here;
+    const DensitySlope rise = sum_point_slope(args, i, from, layers);
+    PairVectors sum = {{zero, zero, zero}, {zero, zero, zero}};
+    between(args, neighbour_range_of(args, i), from, f8_load(args->own[REST_DENSITY] + i), &rise, kernel,
+            corrected, &sum);
+    const LaneVector here =
+        corrected ? whole(mirrored(correction_of(args, i), from->sign), sum.here) : sum.here;
     lanes_add(args->fx, i, begin, end, from->sign.x * gradient * (pi * here.x - sum.there.x));
     lanes_add(args->fy, i, begin, end, from->sign.y * gradient * (pi * here.y - sum.there.y));
     lanes_add(args->fz, i, begin, end, from->sign.z * gradient * (pi * here.z - sum.there.z));
@@ -75,12 +77,12 @@ SIMD_INLINE void push_range(const PairArgs *args, size_t begin, size_t end, cons
     const WallsFar far = out_of_sight(args->constants);
     const f8 zero = f8_splat(0);
     const Layers none = {{zero, zero, zero}, zero};
-    Images images;
+    LaneImages images;
     GROUPS (i, begin, end) {
-        const int count = seekers_of(args, &far, i, begin, end, &images);
+        const int count = sum_points_of(args, &far, i, begin, end, &images);
         const Layers layers = count > 1 ? layers_of(args, i, begin, end) : none;
         for (int m = 0; m < count; m++) {
-            const Seeker from = seeker_of(&images, m);
+            const SumPoint from = sum_point_of(&images, m);
             if (args->own[CORRECTION])
                 push_of(args, i, begin, end, &from, &layers, kernel, true);
             else
@@ -90,13 +92,13 @@ SIMD_INLINE void push_range(const PairArgs *args, size_t begin, size_t end, cons
 }
 
 /* Sum of w F v_ij . (1 + C_i) x_ij. */
-SIMD_INLINE f8 between_flow(const PairArgs *args, size_t i, const Seeker *from, const ShapeKernel kernel,
+SIMD_INLINE f8 between_flow(const PairArgs *args, size_t i, const SumPoint *from, const ShapeKernel kernel,
                             const bool corrected)
 {
-    const Near near = near_of(args, i);
+    const NeighbourRange near = neighbour_range_of(args, i);
     const f8 density = f8_load(args->own[REST_DENSITY] + i), zero = f8_splat(0);
-    const Place v = {from->sign.x * f8_load(args->vx + i), from->sign.y * f8_load(args->vy + i),
-                     from->sign.z * f8_load(args->vz + i)};
+    const LaneVector v = {from->sign.x * f8_load(args->vx + i), from->sign.y * f8_load(args->vy + i),
+                          from->sign.z * f8_load(args->vz + i)};
     Symmetric c = {zero, zero, zero, zero, zero, zero};
     if (corrected)
         c = mirrored(correction_of(args, i), from->sign);
@@ -108,7 +110,7 @@ SIMD_INLINE f8 between_flow(const PairArgs *args, size_t i, const Seeker *from, 
         const Separation d = separation(args, from->at, j);
         const f8 f = w * weight_of(args, d.r2, from->image, kernel);
         const f8x4 u = motion(args, j);
-        Place x = {d.x, d.y, d.z};
+        LaneVector x = {d.x, d.y, d.z};
         if (corrected)
             x = whole(c, x);
         sum += f * ((v.x - u.x) * x.x + (v.y - u.y) * x.y + (v.z - u.z) * x.z);
@@ -120,12 +122,12 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
 {
     const f8 gradient = f8_splat(wcsph_constants(args->constants)->gradient_scale);
     const WallsFar far = out_of_sight(args->constants);
-    Images images;
+    LaneImages images;
     GROUPS (i, begin, end) {
-        const int count = seekers_of(args, &far, i, begin, end, &images);
+        const int count = sum_points_of(args, &far, i, begin, end, &images);
         f8 sum = f8_splat(0);
         for (int m = 0; m < count; m++) {
-            const Seeker from = seeker_of(&images, m);
+            const SumPoint from = sum_point_of(&images, m);
             sum += args->own[CORRECTION] ? between_flow(args, i, &from, kernel, true)
                                          : between_flow(args, i, &from, kernel, false);
         }
@@ -154,11 +156,11 @@ SIMD_INLINE f8 slope(f8 r2, i8 same, f8 h2, f8 inverse)
 }
 
 /* Sum of slope times x_ij, m, over the neighbours of `at`. */
-SIMD_INLINE Place slopes(const PairArgs *args, const Near near, const Place at, f8 fi)
+SIMD_INLINE LaneVector slopes(const PairArgs *args, const NeighbourRange near, const LaneVector at, f8 fi)
 {
     const float h = args->constants->support_radius;
     const f8 h2 = f8_splat(h * h), inverse = f8_splat(1 / h);
-    Place n = {f8_splat(0), f8_splat(0), f8_splat(0)};
+    LaneVector n = {f8_splat(0), f8_splat(0), f8_splat(0)};
     NEIGHBOURS (near, j) {
         const Separation d = separation(args, at, j);
         const f8 k = slope(d.r2, (d.r2 < h2) & (f8_gather(args->kind, j) == fi), h2, inverse);
@@ -182,17 +184,17 @@ PAIR_LOOP(wcsph_normals)
 {
     const f8 full = f8_splat(args->constants->curvature.full);
     const WallsFar far = out_of_sight(args->constants);
-    Images images;
+    LaneImages images;
     GROUPS (i, begin, end) {
-        const Near near = near_of(args, i);
+        const NeighbourRange near = neighbour_range_of(args, i);
         const f8 fi = f8_load(args->kind + i);
-        Place n = slopes(args, near, place_of(args, i), fi);
+        LaneVector n = slopes(args, near, place_of(args, i), fi);
         if (images_of(args, &far, i, begin, end, &images)) {
             const SelfLanes own = themselves(args, i);
             for (int m = 1; m <= images.count; m++) {
                 const ImageParticle image = images.of[m];
-                const Place more = slopes(args, near, image.at, fi),
-                            self = slopes(args, near_themselves(&own), image.at, fi);
+                const LaneVector more = slopes(args, near, image.at, fi),
+                                 self = slopes(args, neighbours_of_own_lanes(&own), image.at, fi);
                 n.x += image.sign.x * (more.x + self.x);
                 n.y += image.sign.y * (more.y + self.y);
                 n.z += image.sign.z * (more.z + self.z);
@@ -223,8 +225,8 @@ typedef struct Bend {
     f8 bend, along;
 } Bend;
 
-SIMD_INLINE void bend_by(const PairArgs *args, const Near near, const Place at, const Front n, f8 fi,
-                         Bend *sum)
+SIMD_INLINE void bend_by(const PairArgs *args, const NeighbourRange near, const LaneVector at, const Front n,
+                         f8 fi, Bend *sum)
 {
     const float h = args->constants->support_radius;
     const f8 h2 = f8_splat(h * h), inverse = f8_splat(1 / h), half = f8_splat(0.5F);
@@ -243,7 +245,7 @@ SIMD_INLINE void bend_by(const PairArgs *args, const Near near, const Place at, 
 }
 
 /* (1 - d/h)^2 for the distance d to the wall of an image; 0 without an image, and for images of images. */
-SIMD_INLINE f8 next_to_wall(const Place at, const ImageParticle *image, float h)
+SIMD_INLINE f8 next_to_wall(const LaneVector at, const ImageParticle *image, float h)
 {
     const f8 x = at.x - image->at.x, y = at.y - image->at.y, z = at.z - image->at.z;
     const i8 face = image->sign.x + image->sign.y + image->sign.z > f8_splat(0);
@@ -252,18 +254,18 @@ SIMD_INLINE f8 next_to_wall(const Place at, const ImageParticle *image, float h)
 }
 
 /* Adds the wall images; returns the sum of next_to_wall. */
-SIMD_INLINE f8 bend_by_walls(const PairArgs *args, const Images *images, size_t i, const Front n, f8 fi,
+SIMD_INLINE f8 bend_by_walls(const PairArgs *args, const LaneImages *images, size_t i, const Front n, f8 fi,
                              Bend *sum)
 {
-    const Place at = place_of(args, i);
-    const Near near = near_of(args, i);
+    const LaneVector at = place_of(args, i);
+    const NeighbourRange near = neighbour_range_of(args, i);
     const SelfLanes own = themselves(args, i);
     f8 next = f8_splat(0);
     for (int m = 1; m <= images->count; m++) {
         const ImageParticle image = images->of[m];
         const Front seen = {n.x * image.sign.x, n.y * image.sign.y, n.z * image.sign.z, n.weight};
         bend_by(args, near, image.at, seen, fi, sum);
-        bend_by(args, near_themselves(&own), image.at, seen, fi, sum);
+        bend_by(args, neighbours_of_own_lanes(&own), image.at, seen, fi, sum);
         next += next_to_wall(at, &image, args->constants->support_radius);
     }
     return next;
@@ -299,14 +301,14 @@ PAIR_LOOP(wcsph_curvature)
     const f8 most = f8_splat(scale->most), none = f8_splat(0), tiny = f8_splat(1e-20F * h * h);
     const WallsFar far = out_of_sight(s);
     float *const *own = args->own;
-    Images images;
+    LaneImages images;
     GROUPS (i, begin, end) {
         const f8 fi = f8_load(args->kind + i), x = f8_load(own[OUTWARD] + i),
                  y = f8_load(own[OUTWARD + 1] + i), z = f8_load(own[OUTWARD + 2] + i);
         const Front n = front_of(x, y, z);
         Bend sum = {none, none};
         f8 pull = none;
-        bend_by(args, near_of(args, i), place_of(args, i), n, fi, &sum);
+        bend_by(args, neighbour_range_of(args, i), place_of(args, i), n, fi, &sum);
         if (images_of(args, &far, i, begin, end, &images))
             pull = wetting(args, i) * bend_by_walls(args, &images, i, n, fi, &sum);
         const f8 along = f8_positive(sum.along); /* entries past a list's end have no weight */

@@ -6,15 +6,15 @@
 /* Sums of F x x^T, and of F x times velocity differences. */
 typedef struct Slopes {
     Symmetric m;
-    Place u, v, w;
+    LaneVector u, v, w;
 } Slopes;
 
-SIMD_INLINE Place plus(const Place a, f8 x, f8 y, f8 z, f8 times)
+SIMD_INLINE LaneVector plus(const LaneVector a, f8 x, f8 y, f8 z, f8 times)
 {
-    return (Place){a.x + times * x, a.y + times * y, a.z + times * z};
+    return (LaneVector){a.x + times * x, a.y + times * y, a.z + times * z};
 }
 
-SIMD_INLINE f8 dot(const Place a, const Place b)
+SIMD_INLINE f8 dot(const LaneVector a, const LaneVector b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -26,8 +26,8 @@ SIMD_INLINE Slopes slopes_of(const PairArgs *args, size_t i, const ShapeKernel k
     const f8 inverse_h = f8_splat(1 / h), least2 = f8_splat(least * least), zero = f8_splat(0);
     const f8 scale = f8_splat(wcsph_constants(s)->gradient_scale / s->rest_number_density),
              first_solid = f8_splat(FLUIDS_MAX);
-    const Place at = place_of(args, i);
-    const Near near = near_of(args, i);
+    const LaneVector at = place_of(args, i);
+    const NeighbourRange near = neighbour_range_of(args, i);
     const f8 u = f8_load(args->vx + i), v = f8_load(args->vy + i), w = f8_load(args->vz + i);
     Slopes sum = {
         {zero, zero, zero, zero, zero, zero}, {zero, zero, zero}, {zero, zero, zero}, {zero, zero, zero}};
@@ -51,10 +51,10 @@ SIMD_INLINE Slopes slopes_of(const PairArgs *args, size_t i, const ShapeKernel k
 SIMD_INLINE void carry_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
 {
     GROUPS (i, begin, end) {
-        const Place shift = {f8_load(args->own[UNEVEN] + i), f8_load(args->own[UNEVEN + 1] + i),
-                             f8_load(args->own[UNEVEN + 2] + i)};
+        const LaneVector shift = {f8_load(args->own[UNEVEN] + i), f8_load(args->own[UNEVEN + 1] + i),
+                                  f8_load(args->own[UNEVEN + 2] + i)};
         const Slopes sum = slopes_of(args, i, kernel);
-        const Place y = renormalise(sum.m, shift);
+        const LaneVector y = renormalise(sum.m, shift);
         lanes_store(args->own[CARRIED], i, begin, end, dot(y, sum.u));
         lanes_store(args->own[CARRIED + 1], i, begin, end, dot(y, sum.v));
         lanes_store(args->own[CARRIED + 2], i, begin, end, dot(y, sum.w));
@@ -94,13 +94,13 @@ SIMD_INLINE void friction_range(const PairArgs *args, size_t begin, size_t end, 
     float *const *c = args->own + CORRECTION;
 
     GROUPS (i, begin, end) {
-        const Place at = place_of(args, i);
-        const Near near = near_of(args, i);
+        const LaneVector at = place_of(args, i);
+        const NeighbourRange near = neighbour_range_of(args, i);
         const f8 u = f8_load(args->vx + i), v = f8_load(args->vy + i), z = f8_load(args->vz + i);
         const f8 volume = lesser(f8_load(args->volume + i), most),
                  mu = args->viscosity ? f8_load(args->viscosity + i) : f8_splat(s->viscosity[0]),
                  half = half_of(f8_load(c[0] + i), f8_load(c[1] + i), f8_load(c[2] + i), s->dimensions);
-        Place sum = {zero, zero, zero};
+        LaneVector sum = {zero, zero, zero};
         NEIGHBOURS (near, j) {
             const Separation d = separation(args, at, j);
             const i8 fluid = (d.r2 >= least2) & (f8_gather(args->kind, j) < first_solid);
@@ -143,13 +143,13 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
     const f8 first_solid = f8_splat(FLUIDS_MAX);
 
     GROUPS (i, begin, end) {
-        const Place at = place_of(args, i);
-        const Near near = near_of(args, i);
+        const LaneVector at = place_of(args, i);
+        const NeighbourRange near = neighbour_range_of(args, i);
         const f8 ri = f8_load(args->own[RELATIVE] + i), fi = f8_load(args->kind + i);
         i8 solid = i8_splat(0); /* a boundary particle is in reach */
         const f8 zero = f8_splat(0);
         Symmetric m = {zero, zero, zero, zero, zero, zero};
-        Place g = {zero, zero, zero};
+        LaneVector g = {zero, zero, zero};
 
         NEIGHBOURS (near, j) {
             Separation d = separation(args, at, j);
@@ -184,8 +184,8 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
     const f8 diffusion = f8_splat(w->diffusion), half = f8_splat(0.5f);
 
     GROUPS (i, begin, end) {
-        const Place at = place_of(args, i);
-        const Near near = near_of(args, i);
+        const LaneVector at = place_of(args, i);
+        const NeighbourRange near = neighbour_range_of(args, i);
         const f8 ui = f8_load(args->vx + i), vi = f8_load(args->vy + i), wi = f8_load(args->vz + i);
         const f8 none = f8_splat(0), ri = diffusive ? f8_load(args->own[RELATIVE] + i) : none,
                  fi = diffusive ? f8_load(args->kind + i) : none;
@@ -239,8 +239,8 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
     const f8 most = f8_splat(1 / (THINNEST * s->rest_number_density));
 
     GROUPS (i, begin, end) {
-        const Place at = place_of(args, i);
-        const Near near = near_of(args, i);
+        const LaneVector at = place_of(args, i);
+        const NeighbourRange near = neighbour_range_of(args, i);
         const f8 ui = f8_load(args->vx + i), vi = f8_load(args->vy + i), wi = f8_load(args->vz + i);
         const f8 pi = f8_load(args->pressure_term + i), volume = lesser(f8_load(args->volume + i), most);
         const f8 mi = args->viscosity ? f8_load(args->viscosity + i) : f8_splat(s->viscosity[0]),

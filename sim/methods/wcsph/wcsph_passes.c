@@ -433,6 +433,6 @@ const Pass wcsph_forces = {
         "position velocity id fluid volume pressure pressure_term viscosity artificial tension kind outward correction "
         "correction_mixed rest_density",
     .writes = "acceleration uneven full dense pull",
-    .felt = true,
+    .acts_on_solids = true,
     .mirrors = true,
 };

@@ -55,9 +55,9 @@ enum {
     CARRIED = CORRECTION + 6,   /* (uneven . grad) v of sim/methods/wcsph/wcsph_passes.c, 1/(m s) */
     REST_DENSITY = CARRIED + 3, /* of the particle's fluid, kg/m3 */
     PULL = REST_DENSITY + 1,    /* force of surface tension by curvature, as ParticleColumns.ax */
-    DROP = PULL + 3,            /* sim/wcsph/drops.h, in integers: way to the root of the particle's body; */
-    DROP_SUM = DROP + 1,        /* of roots: sum of PULL over the body; */
-    DROP_TALLY = DROP_SUM + 3,  /* of roots: number of particles, and axes with a wall */
+    DROP = PULL + 3,     /* sim/methods/wcsph/drops.c, in integers: way to the root of the particle's body; */
+    DROP_SUM = DROP + 1, /* of roots: sum of PULL over the body; */
+    DROP_TALLY = DROP_SUM + 3, /* of roots: number of particles, and axes with a wall */
 };
 
 extern const ColumnDef wcsph_columns[];

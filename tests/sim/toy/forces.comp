@@ -1,4 +1,4 @@
-// Pairs that age: the forces that methods share, in a method with columns of its own. Only compiled.
+// Pairs that age: shared forces in a method with additional columns. Only compiled.
 #include "sim/constants.glsl"
 #include "sim/own.glsl"
 #include "sim/scratch.glsl"

@@ -1,0 +1,22 @@
+"""sim/gpu/gl_call_rows.h has each function of OpenGL that slosh calls: one that is not there would not be counted."""
+import pathlib
+import re
+import sys
+import unittest
+
+ROOT = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2]
+
+
+class Calls(unittest.TestCase):
+    def test_rows_are_the_functions_that_are_called(self):
+        called = set()
+        for folder in ('sim', 'render', 'app'):
+            for path in (ROOT / folder).rglob('*.[ch]*'):
+                if path.name != 'gl_call_rows.h':
+                    called |= set(re.findall(r'\bgl[A-Z]\w+(?=\()', path.read_text(encoding='utf-8')))
+        rows = re.findall(r'^GL_CALL\(.*?, (gl\w+),', (ROOT / 'sim/gpu/gl_call_rows.h').read_text(encoding='utf-8'), re.M)
+        self.assertEqual(rows, sorted(called))
+
+
+if __name__ == '__main__':
+    unittest.main()

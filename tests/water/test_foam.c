@@ -1,0 +1,175 @@
+/* Foam: where fluid comes together fast, and nowhere else; the same whatever the order of particles; hidden
+   by solids. */
+#include "tests/render/solids_fixture.h"
+
+#include "app/files/pictures.h"
+
+#define SPACING 0.08
+enum { LONG = 25, DEEP = 12, LAYERS = 5 };
+
+static float velocity[4 * LONG * DEEP * LAYERS], ids[LONG * DEEP * LAYERS];
+
+/* A tank with the right half at rest. In the left half all particles move with a given speed towards the
+   middle of the half, and collide. `backwards`: in the opposite order. */
+static void fill(SolidsScene *scene, double speed, bool backwards)
+{
+    Particles *particles = scene->particles;
+    const int count = LONG * DEEP * LAYERS;
+    particles->count = 0;
+    for (int n = 0; n < count; n++) {
+        const int id = backwards ? count - 1 - n : n;
+        const int i = id % LONG, k = id / LONG % DEEP, j = id / LONG / DEEP;
+        const double x = -1 + (i + 0.5) * SPACING;
+        particles_add(particles, x, (j + 0.5) * SPACING, -0.48 + (k + 0.5) * SPACING, 0, 0);
+        particles->position[4 * n + 3] = (float)(SPACING * SPACING * SPACING);
+        ids[n] = (float)id;
+        velocity[4 * n] = (float)(x > -0.04 ? 0 : x < -0.5 ? speed : -speed);
+    }
+    scene->state = box_state(particles->count, SPACING);
+    scene->state.box_size[2] = 0.96;
+}
+
+static SolidsScene tank(const char *kind)
+{
+    SolidsScene scene = scene_create();
+    ViewDef *def = &scene.def;
+    text_set(def->kind, kind);
+    def->color_by = SCALAR_FLUID;
+    def->camera_auto = false;
+    def->camera = (CameraDef){{0, 1.6, 2.6}, {0, 0.3, 0}, 36};
+    splat_def(def)->shading = SPLAT_WATER;
+    volume_def(def)->raycast.look = RAYCAST_WATER;
+    volume_def(def)->cells = 64;
+    return scene;
+}
+
+static Image picture_of(SolidsScene *scene)
+{
+    Error error = {0};
+    Image image;
+    ParticleBuffers buffers;
+    const size_t count = scene->particles->count;
+    Upload *upload = upload_create(count, renderer_attributes(&scene->def), &error);
+    ParticleArrays arrays = {
+        .position = scene->particles->position, .fluid = scene->particles->fluid, .velocity = velocity};
+    arrays.scalar[SCALAR_ID] = ids;
+    Renderer *renderer = renderer_create(&scene->def, &scene->world, WIDTH, HEIGHT, &error);
+    if (!renderer || !upload || !upload_write_arrays(upload, &arrays, &scene->state, &error))
+        fail_msg("%s", error.message);
+    assert_true(upload_take(upload, &buffers) && image_create(&image, WIDTH, HEIGHT));
+    renderer_draw(renderer, &buffers, NULL);
+    renderer_read(renderer, image.rgb);
+    renderer_destroy(renderer);
+    upload_destroy(upload);
+    return image;
+}
+
+/* Over the picture's columns from..end, in 255ths: the difference of brightness, and the distance of two
+   pictures. */
+typedef struct Difference {
+    double brighter, apart;
+} Difference;
+
+static Difference compare(const Image *a, const Image *b, double from, double end)
+{
+    Difference sum = {0, 0};
+    int count = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        if (i % WIDTH >= from * WIDTH && i % WIDTH < end * WIDTH)
+            for (int c = 0; c < 3; c++, count++) {
+                const double more = (double)a->rgb[3 * i + c] - b->rgb[3 * i + c];
+                sum.brighter += more, sum.apart += fabs(more);
+            }
+    return (Difference){sum.brighter / count, sum.apart / count};
+}
+
+/* With foam against without. */
+static Difference foam_of(SolidsScene *scene, double from, double end)
+{
+    Image with = picture_of(scene);
+    const double foam = scene->def.foam;
+    scene->def.foam = 0;
+    Image without = picture_of(scene);
+    scene->def.foam = foam;
+    const Difference difference = compare(&with, &without, from, end);
+    image_destroy(&with);
+    image_destroy(&without);
+    return difference;
+}
+
+static void foam_is_where_fluid_meets(void **state)
+{
+    static const char *const kinds[] = {"splat", "volume"};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        SolidsScene scene = tank(kinds[k]);
+        fill(&scene, 2, false);
+        const Difference left = foam_of(&scene, 0.2, 0.45), right = foam_of(&scene, 0.55, 1);
+        printf("%s: brighter by %.3g where it meets, %.3g beside\n", kinds[k], left.brighter, right.apart);
+        assert_true(left.brighter > 0.8);
+        assert_true(right.apart == 0);
+        free(scene.particles);
+    }
+}
+
+/* Slow fluid, a draft and two dimensions: not a pixel is another. */
+static void there_is_none(void **state)
+{
+    (void)state;
+    SolidsScene scene = tank("splat");
+    fill(&scene, 0.05, false);
+    assert_true(foam_of(&scene, 0, 1).apart == 0);
+    fill(&scene, 2, false);
+    velocity[0] = NAN;
+    assert_true(foam_of(&scene, 0, 1).brighter > 0.15);
+    scene.def.quality = VIEW_DRAFT;
+    assert_true(foam_of(&scene, 0, 1).apart == 0);
+    scene.def.quality = VIEW_GOOD;
+    scene.state.box_size[2] = SPACING;
+    assert_true(foam_of(&scene, 0, 1).apart == 0);
+    free(scene.particles);
+}
+
+/* Backends reorder particles at each step: bubbles stay. The order counts only for overlapping bubbles. */
+static void bubbles_go_by_ids(void **state)
+{
+    (void)state;
+    SolidsScene scene = tank("splat");
+    fill(&scene, 2, false);
+    Image one = picture_of(&scene);
+    fill(&scene, 2, true);
+    Image other = picture_of(&scene);
+    for (size_t n = 0; n < scene.particles->count; n++)
+        ids[n] += 5000;
+    Image moved = picture_of(&scene);
+    const double same = compare(&one, &other, 0, 1).apart, elsewhere = compare(&one, &moved, 0, 1).apart;
+    printf("%.3g apart in another order, %.3g with other ids\n", same, elsewhere);
+    assert_true(same < 0.2 * elsewhere);
+    image_destroy(&one), image_destroy(&other), image_destroy(&moved);
+    free(scene.particles);
+}
+
+/* A wall before the tank, a hand thick. */
+static void solids_hide_foam(void **state)
+{
+    (void)state;
+    SolidsScene scene = tank("splat");
+    SolidDef *wall = scene_add(&scene, SOLID_BOX, 0, 0.5, 0.56);
+    wall->size[0] = 3, wall->size[1] = 1.6, wall->size[2] = 0.06;
+    fill(&scene, 2, false);
+    assert_true(foam_of(&scene, 0, 1).apart == 0);
+    wall->centre[2] = -0.56;
+    assert_true(foam_of(&scene, 0.2, 0.45).brighter > 0.8);
+    free(scene.particles);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(foam_is_where_fluid_meets, no_gl_errors),
+        cmocka_unit_test_teardown(there_is_none, no_gl_errors),
+        cmocka_unit_test_teardown(bubbles_go_by_ids, no_gl_errors),
+        cmocka_unit_test_teardown(solids_hide_foam, no_gl_errors),
+    };
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
+}
