@@ -14,7 +14,7 @@
     X(put_ball) X(put_box) X(put_like) X(take_solid) \
     X(plane_back) X(plane_forward) X(plane_left) X(plane_right) X(plane_up) X(plane_down) X(plane_x) X(plane_y) X(plane_z) \
     X(pin) X(unpin) X(trail) \
-    X(quit) \
+    X(close) X(quit) \
     X(orbit) X(pan) X(pick) X(zoom) X(move_box) X(turn_box) X(tilt_gravity) X(drag_wall) X(stir) X(pull) X(touch_size) \
     X(touch_strength) X(push_box) X(tilt_box) X(sway_box) X(lean_box) X(touch_pad)
 /* clang-format on */

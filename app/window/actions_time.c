@@ -293,37 +293,54 @@ const UserAction action_help = {
     .run = turn_help,
 };
 
-/* True if the session is saved, or the user asks a second time. */
-static bool may_close(Play *play)
+static const double CLOSE_PATIENCE_MS = 4000; /* time of the shown question */
+
+static bool asks_to_close(const Play *play)
 {
-    static const double PATIENCE_MS = 4000; /* time of the shown question */
-    const double now = wall_ms();
-    const bool lost = play->model.status.unsaved && !play->model.record;
-    if (!lost || (play->close_asked_ms > 0 && now < play->close_asked_ms + PATIENCE_MS))
-        return true;
-    play->close_asked_ms = now;
-    notice_tell(&play->notice,
-                "what you did is not saved: Ctrl+S saves it, Escape once more closes the window");
-    return false;
+    return play->close_asked_ms > 0 && wall_ms() < play->close_asked_ms + CLOSE_PATIENCE_MS;
 }
 
-static void quit_or_close(Play *play)
+/* Once per key press, the innermost first; a question is answered with no. */
+static void close_innermost(Play *play)
 {
-    if (play->overlay.help)
+    if (asks_to_close(play)) {
+        play->close_asked_ms = 0;
+        notice_tell(&play->notice, "the window stays open");
+    } else if (play->overlay.help)
         play->overlay.help = false;
     else if (play->overlay.scenes)
         turn_scenes(play);
     else if (play->touch.on)
         play_turn_touch(play, false);
+    else if (window_is_fullscreen(play->window))
+        turn_fullscreen(play);
     else
-        play->quit = may_close(play);
+        notice_tell(&play->notice, "nothing is open that could be closed; Ctrl+Q closes the window");
+}
+
+const UserAction action_close = {
+    .group = "End",
+    .example = "press H, then Escape: the list closes; Escape never closes the window",
+    .name = "close",
+    .help = "close what is open: a list, the tool for touching, the full screen; \"no\" to a question",
+    .keys = {ON(ESCAPE)},
+    .run = close_innermost,
+};
+
+static void quit_or_ask(Play *play)
+{
+    const bool lost = play->model.status.unsaved && !play->model.record;
+    play->quit |= !lost || asks_to_close(play);
+    if (play->quit)
+        return;
+    play->close_asked_ms = wall_ms();
+    notice_tell(&play->notice, "what you did is not saved: Ctrl+S saves it, Ctrl+Q once more closes the "
+                               "window, Escape keeps it open");
 }
 
 const UserAction action_quit = {
-    .group = "End",
-    .example = "press Escape: an open list closes; press it once more: the window does",
     .name = "quit",
-    .help = "close the list that is open, else the window; asks where what you did is not saved",
-    .keys = {ON(ESCAPE), ON_CTRL(Q)},
-    .run = quit_or_close,
+    .help = "close the window; asks where what you did is not saved",
+    .keys = {ON_CTRL(Q)},
+    .run = quit_or_ask,
 };

@@ -297,7 +297,7 @@ void input_event(PlayInput *input, const WindowEvent *event, int height, Request
         on_drop(event, requests);
         break;
     case WINDOW_CLOSE:
-        request_add(requests, &(Request){.kind = REQUEST_CLOSE_WINDOW});
+        request_add_action(requests, &action_quit);
         break;
     case WINDOW_RESIZE:
     case WINDOW_EXPOSE:

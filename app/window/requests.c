@@ -193,9 +193,6 @@ static void execute(Play *play, const Request *request)
     case REQUEST_SET_GATES:
         model_set_gates(&play->model, request->gates);
         break;
-    case REQUEST_CLOSE_WINDOW:
-        play->quit = true;
-        break;
     }
 }
 

@@ -125,8 +125,7 @@ typedef enum RequestKind {
     REQUEST_GRAB_CAMERA,  /* takes the camera into the hand, unmoved */
     REQUEST_STEER_CAMERA, /* amount: radians to the right and up, steps nearer; grabs the camera first */
     REQUEST_RESIZE_BOX,   /* amount: size of the box, m */
-    REQUEST_SET_GATES,    /* gates: emitters and drains to close */
-    REQUEST_CLOSE_WINDOW  /* closes the window */
+    REQUEST_SET_GATES     /* gates: emitters and drains to close */
 } RequestKind;
 
 typedef struct Request {

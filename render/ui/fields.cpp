@@ -31,6 +31,14 @@ static void end_field(const Ui *ui, const UiField *field, float needed)
     watch(ui, field->id, ImRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax()), needed);
 }
 
+// A list or a picker that has opened over the window: Escape closes it alone.
+static void end_popup(const Ui *ui)
+{
+    if (ui->input.keys & UI_KEY_ESCAPE)
+        ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+}
+
 bool ui_checkbox(Ui *ui, const UiField *field, bool *value)
 {
     Current current(ui->context);
@@ -60,7 +68,7 @@ bool ui_choice(Ui *ui, const UiField *field, int *chosen, const char *const *nam
     const bool open = ImGui::BeginCombo("##", names[*chosen]);
     const bool changed = open && choose(chosen, names);
     if (open)
-        ImGui::EndCombo();
+        end_popup(ui);
     end_field(ui, field, needed);
     return changed;
 }
@@ -79,7 +87,7 @@ bool ui_color(Ui *ui, const UiField *field, float srgb[3])
             ImGui::ColorPicker3("##picker", srgb,
                                 plain | ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoOptions |
                                     ImGuiColorEditFlags_NoSmallPreview | ImGuiColorEditFlags_DisplayRGB);
-        ImGui::EndPopup();
+        end_popup(ui);
     }
     end_field(ui, field, 0);
     return changed;

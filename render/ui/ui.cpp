@@ -179,7 +179,7 @@ bool ui_wants_mouse(const Ui *ui)
 
 bool ui_wants_keys(const Ui *ui)
 {
-    return ui->places > 0 && ui->context->IO.WantTextInput;
+    return ui->places > 0 && (ui->context->IO.WantTextInput || ui->context->OpenPopupStack.Size > 0);
 }
 
 // True if input may change the look of the windows. Includes presses outside the windows: ImGui must know

@@ -90,7 +90,8 @@ void ui_end(Ui *ui);
 /* True while windows have no final size and position; new windows are still invisible. Lasts some frames. */
 bool ui_needs_redraw(const Ui *ui);
 
-/* State of the last frame. ui_wants_mouse, ui_wants_keys: true if mouse or keys belong to the windows.
+/* State of the last frame. ui_wants_mouse, ui_wants_keys: true if mouse or keys belong to the windows; keys
+   belong to a text field, or to an open list or picker, which Escape closes.
    ui_covers: true if a window covers a position, so that a press there belongs to the window. */
 bool ui_wants_mouse(const Ui *ui);
 bool ui_wants_keys(const Ui *ui);

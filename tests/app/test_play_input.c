@@ -86,7 +86,7 @@ static void what_is_asked_waits_in_its_order(void **state)
     assert_ptr_equal(next(REQUEST_ACTION).action, &action_next_scalar);
     assert_string_equal(next(REQUEST_OPEN_SCENE).text, "dropped.yaml");
     assert_ptr_equal(next(REQUEST_ACTION).action, &action_next_colormap);
-    next(REQUEST_CLOSE_WINDOW);
+    assert_ptr_equal(next(REQUEST_ACTION).action, &action_quit);
     no_more();
 }
 

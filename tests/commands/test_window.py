@@ -280,12 +280,13 @@ class Window(CommandTest):
         """Once more where it asks, because what was done is not saved."""
         if os.path.exists(self.path('out.json')):
             os.remove(self.path('out.json'))
-        self.key('Escape')
+        asked = self.said_now().count('Ctrl+Q once more')
+        self.key('ctrl+q')
         end = time.monotonic() + 60
-        while self.process.poll() is None and 'Escape once more' not in self.said_now() and time.monotonic() < end:
+        while self.process.poll() is None and self.said_now().count('Ctrl+Q once more') == asked and time.monotonic() < end:
             time.sleep(0.01)
         if self.process.poll() is None:
-            self.key('Escape')
+            self.key('ctrl+q')
         return self.end()
 
     def files(self, extension):
@@ -407,17 +408,29 @@ class Keys(Window):
         self.assertEqual(out['view'], 'volume')  # spheres, splat, volume
         self.assertIn('view splat: ', self.messages)
 
-    def test_escape_asks_where_what_was_done_is_not_saved(self):
+    def test_the_end_asks_where_what_was_done_is_not_saved(self):
+        """Keys and the window's cross alike, and Escape says no: it never ends anything."""
         self.open('still.yaml')
-        self.drag(1, [(200, 200), (220, 200), (240, 210)], 'ctrl')
         self.keys('Escape')
+        self.assertIn('nothing is open that could be closed; Ctrl+Q closes the window\n', self.said_now())
+        self.drag(1, [(200, 200), (220, 200), (240, 210)], 'ctrl')
+        for ask in 'ctrl+q', None:
+            if ask:
+                self.key(ask)
+            else:
+                self.display.press_close_button(self.window)
+            self.drawn()
+            self.keys('Escape')  # no
         self.assertIsNone(self.process.poll())
+        question = 'what you did is not saved: Ctrl+S saves it, Ctrl+Q once more closes the window, Escape keeps it open\n'
+        for told in question, 'the window stays open\n':
+            self.assertEqual(self.said_now().count(told), 2)
         self.keys('ctrl+s')
         self.wait_for(lambda: self.files('recording'), self.process)
         self.drawn()
-        self.key('Escape')
+        self.key('ctrl+q')
         self.end()
-        self.assertEqual(self.messages.count('what you did is not saved: Ctrl+S saves it, Escape once more closes the window\n'), 1)
+        self.assertEqual(self.messages.count(question), 2)
 
     def test_scenes(self):
         self.write('zz.yaml', STILL.replace('0.4, 0.5', '0.3, 0.5'))

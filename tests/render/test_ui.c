@@ -131,6 +131,27 @@ static void test_curves_are_edited_by_the_mouse(void **state)
     form_close(desk);
 }
 
+/* An open list has the keys; Escape closes it alone and chooses nothing. */
+static void test_escape_closes_an_open_list(void **state)
+{
+    (void)state;
+    Form form;
+    Desk *desk = form_open(&form);
+    const float *box = desk_find(desk, "fruit")->rect;
+    assert_false(ui_wants_keys(desk->ui));
+    desk_click(desk, (box[0] + box[2]) / 2, (box[1] + box[3]) / 2);
+    desk_frames(desk, 10);
+    assert_true(ui_wants_keys(desk->ui));
+    desk->input.keys = UI_KEY_ESCAPE;
+    desk_frames(desk, 2);
+    desk->input.keys = 0;
+    desk_frames(desk, 2);
+    assert_false(ui_wants_keys(desk->ui));
+    assert_int_equal(form.chosen, 0);
+    assert_false(form.changed);
+    form_close(desk);
+}
+
 static void test_scale_goes_there_and_back(void **state)
 {
     (void)state;
@@ -428,6 +449,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(test_curves_are_edited_by_the_mouse, no_gl_errors),
+        cmocka_unit_test_teardown(test_escape_closes_an_open_list, no_gl_errors),
         cmocka_unit_test(test_scale_goes_there_and_back),
         cmocka_unit_test(test_scale_has_no_more_digits_than_are_shown),
         cmocka_unit_test_teardown(test_draws_in_its_window_and_nowhere_else, no_gl_errors),
