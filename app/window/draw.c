@@ -12,6 +12,7 @@ static void draw_overlay(Play *play)
                               .renderer = window_renderer(play->window),
                               .frame_times = &play->frame_times,
                               .gl_times = play->picture.timer ? &play->picture.gl_times : NULL,
+                              .about = *play->welcome.about ? play->welcome.about : NULL,
                               .movie = play->capture.video != NULL};
     const double began = thread_cpu_ms();
     panels_range(play->picture.panels, play->picture.chosen, facts.range);
@@ -184,8 +185,15 @@ static const char *words_of(const Play *play)
     if (*play->scene_watch.broken.message)
         return play->scene_watch.broken.message;
     return play->model.status.failed   ? play->model.status.message
-           : play->model.has_particles ? NULL
-                                       : "filling the box ...";
+           : play->model.has_particles ? welcome_now(&play->welcome)
+                                       : play->welcome.opening;
+}
+
+static void draw_words(const Play *play)
+{
+    picture_draw_words(&play->picture, words_of(play),
+                       play_overlay_covered_left(&play->overlay, play->picture.width),
+                       play_overlay_covered_below(&play->overlay, &play->model));
 }
 
 static void count_picture(Play *play, double began)
@@ -195,6 +203,8 @@ static void count_picture(Play *play, double began)
     frame_times_drawn(&play->frame_times, now - began);
     if (!model->has_particles)
         return;
+    model_shown(model);
+    welcome_shown(&play->welcome);
     if (frame_times_begin(&play->frame_times, now))
         model->simulated_s = -model->status.simulated_s;
     if (model->paused)
@@ -228,7 +238,7 @@ static void draw_now(Play *play)
         present_fluid(play, whole);
     else
         picture_clear(picture, &play->model.open.scene.view);
-    picture_draw_words(picture, words_of(play), play_overlay_covered_below(&play->overlay, &play->model));
+    draw_words(play);
     picture_close(picture);
     do
         events_poll_hand(play);

@@ -58,6 +58,7 @@ static void take_event(Play *play, const WindowEvent *event)
     play->picture.dirty |= redraw;
     play->picture.over |= play->touch.on && event->kind == WINDOW_MOVE;
     play->picture.over |= play_overlay_shown(&play->overlay, &play->model);
+    play->picture.over |= welcome_event(&play->welcome, event);
     const bool covered = overlay_has(play, event), gripped = grip_has(play, event, !covered);
     play->picture.over |=
         readout_event(&play->readout, play->picture.panels, event, !covered && !play->handle_tool.taken);

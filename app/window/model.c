@@ -244,6 +244,7 @@ static void adopt(PlayModel *model, const PlayScene *opened)
     model->open = *opened;
     model->file_scene = opened->scene;
     model->has_particles = false;
+    model->held = true;
     post_open(model);
     model->saves = model->messages = model->travels = model->solids = 0;
     model->closed_gates = flow_closed_gates(&opened->scene.world);
@@ -356,7 +357,7 @@ bool model_open(PlayModel *model, const char *scene, const SceneSettings *settin
     const bool read = play_scene_read(&opened, scene, settings, &notes, error);
     const SimulatorSetup how = {.wake = window_wake,
                                 .timer = model->timer,
-                                .paused = model->paused,
+                                .paused = true, /* until model_shown */
                                 .history_bytes = model->history_bytes};
     share_processors(&opened.scene.world);
     for (int i = 0; (def = compare_world_def(opened.compared, i)); i++)
@@ -449,7 +450,15 @@ bool model_close(PlayModel *model, double patience_ms)
 void model_pause(PlayModel *model, bool paused)
 {
     model->paused = paused;
-    model->open.source->pause(&model->open, paused);
+    model->open.source->pause(&model->open, paused || model->held);
+}
+
+void model_shown(PlayModel *model)
+{
+    if (!model->held)
+        return;
+    model->held = false;
+    model->open.source->pause(&model->open, model->paused);
 }
 
 void model_step(PlayModel *model, bool held)

@@ -148,6 +148,7 @@ typedef struct PlayModel {
     Scene file_scene;          /* as in the file */
     ParticleBuffers particles; /* the drawn state */
     bool has_particles;
+    bool held; /* the clock waits for the first picture of the scene */
     SimulatorStatus status;
     bool paused;
     double simulated_s;        /* of earlier scenes, minus the time before the first picture */
@@ -198,6 +199,10 @@ bool model_titles(const PlayModel *model, const ViewDef *const views[], int coun
 
 /* True if the view's source has all data that the view reads. */
 bool model_has(const PlayModel *model, const ViewDef *view, Error *error);
+
+/* Call after each picture with a state: from the first of a scene on time runs, if the user has not paused
+   it. So nobody misses the beginning while shaders compile. */
+void model_shown(PlayModel *model);
 
 void model_pause(PlayModel *model, bool paused);
 void model_step(PlayModel *model, bool held); /* one frame, then a pause; `held`: see simulator_single_step */

@@ -18,7 +18,7 @@ float picture_letters(const Window *window)
     return (float)(LETTERS * window_scale(window));
 }
 
-void picture_read_display(PlayPicture *picture, const Window *window)
+bool picture_read_display(PlayPicture *picture, const Window *window, Error *error)
 {
     picture->refresh = window_refresh(window);
     window_size(window, &picture->width, &picture->height);
@@ -26,6 +26,8 @@ void picture_read_display(PlayPicture *picture, const Window *window)
         picture->pauses = gl_timer_create(GL_CLOCK_OFF);
     else
         picture->timer = gl_timer_create(GL_CLOCK_QUERY);
+    picture->text = text_create(picture_letters(window), error);
+    return picture->text != NULL;
 }
 
 /* The view of a panel: the scene's `view` is the chosen one. */
@@ -62,14 +64,13 @@ static bool replace_panels(PlayPicture *picture, const PlayScene *open, int widt
     return true;
 }
 
-bool picture_start(PlayPicture *picture, const PlayScene *open, float letters, Error *error)
+bool picture_start(PlayPicture *picture, const PlayScene *open, Error *error)
 {
     const int width = (int)fmax(picture->width, 1), height = (int)fmax(picture->height, 1);
     if (!replace_panels(picture, open, width, height, error))
         return false;
     picture->shaders_stamp = shader_source_stamp();
-    picture->text = text_create(letters, error);
-    return picture->text != NULL;
+    return true;
 }
 
 void picture_end(PlayPicture *picture)
@@ -213,31 +214,33 @@ void picture_clear(const PlayPicture *picture, const ViewDef *view)
     glClear(GL_COLOR_BUFFER_BIT);
 }
 
-enum { WORD_LINES = 4, WORD_LINE = 400 };
+enum { WORD_LINES = 6, WORD_LINE = 400 };
 
-/* Breaks text wider than `most` pixels at blanks; the last line gets the rest. Returns the count of lines. */
+/* Breaks text at line ends, and where wider than `most` pixels at blanks; the last line gets the rest.
+ * Returns the count of lines. */
 static int break_lines(Text *text, const char *words, float most, char lines[WORD_LINES][WORD_LINE])
 {
     int count = 0;
     while (*words && count < WORD_LINES) {
         char *line = lines[count++], *blank;
-        snprintf(line, WORD_LINE, "%s", words);
+        snprintf(line, WORD_LINE, "%.*s", (int)strcspn(words, "\n"), words);
         while (count < WORD_LINES && text_width(text, 1, line) > most && (blank = strrchr(line, ' ')))
             *blank = 0;
         words += strlen(line);
-        words += strspn(words, " ");
+        words += strspn(words, " \n");
     }
     return count;
 }
 
-void picture_draw_words(const PlayPicture *picture, const char *words, float below)
+void picture_draw_words(const PlayPicture *picture, const char *words, double covered_left, float below)
 {
     Text *text = picture->text;
     char lines[WORD_LINES][WORD_LINE];
     if (!words)
         return;
-    const float em = text_height(text), high = 1.4F * em, middle = 0.5F * (float)picture->width;
-    const int count = break_lines(text, words, (float)picture->width - 2 * em, lines);
+    const float em = text_height(text), high = 1.4F * em, wide = (float)picture->width;
+    const float left = (float)covered_left * wide, middle = 0.5F * (left + wide);
+    const int count = break_lines(text, words, wide - left - 3 * em, lines);
     const float top = (float)picture->height - below - 4 * em - high * (float)(count - 1);
     float width = 0;
     for (int i = 0; i < count; i++)
@@ -248,6 +251,18 @@ void picture_draw_words(const PlayPicture *picture, const char *words, float bel
     for (int i = 0; i < count; i++)
         text_draw(text, middle, top + high * (float)i, 1, 0xf2f4f6ff, TEXT_CENTER, lines[i]);
     text_end(text);
+}
+
+void picture_say(PlayPicture *picture, const ViewDef *view, const char *words, Window *window)
+{
+    if (!picture->text || !picture_visible(picture))
+        return;
+    if (picture->panels)
+        picture_present(picture);
+    else
+        picture_clear(picture, view);
+    picture_draw_words(picture, words, 0, 0);
+    window_present(window);
 }
 
 void picture_close(PlayPicture *picture)

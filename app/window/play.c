@@ -56,7 +56,8 @@ static bool make_window(PlaySession *session, Error *error)
         return false;
     renderer_tell(window_renderer(play->window));
     gl_debug_install();
-    picture_read_display(&play->picture, play->window);
+    if (!picture_read_display(&play->picture, play->window, error))
+        return false;
     gl_timer_between(play->picture.pauses, events_between_passes, play);
     return true;
 }
@@ -80,7 +81,7 @@ static bool start(PlaySession *session, Error *error)
         (float)play->picture.width > PANEL_FROM_EM * letters; /* beside the fluid, not above */
     play->overlay.opener = !play->overlay.panel;
     return requests_open_scene(play, setup->scene, setup->settings, error) &&
-           picture_start(&play->picture, &play->model.open, letters, error) &&
+           picture_start(&play->picture, &play->model.open, error) &&
            play_overlay_start(&play->overlay, letters, error);
 }
 
@@ -190,6 +191,7 @@ static bool run(PlaySession *session, Error *error)
         if (!picture_follow_size(&play->picture, play->window, error))
             return false;
         play->picture.dirty |= notice_changed(&play->notice) | play_overlay_poll(&play->overlay);
+        play->picture.over |= welcome_changed(&play->welcome);
         if (interrupt_progress_requested())
             tell_figures(session);
         if (!play->quit)

@@ -107,6 +107,9 @@ typedef struct SceneList {
     SceneRow *rows; /* owned; ordered by name */
 } SceneList;
 
+/* The comment at the head of a scene's text, a paragraph a line; cut at `most` bytes, "" without comment. */
+void scene_head(const char *text, size_t size, char *head, size_t most);
+
 /* Lists the scenes of a folder; NULL: the scenes that come with slosh. Broken YAML files are listed too:
    opening the file shows the error. Returns false with the reason: no such folder, no memory, no scene. */
 bool scene_list_read(const char *folder, SceneList *list, Error *error);

@@ -149,6 +149,7 @@ static void collect(PlayOverlay *overlay, PlayModel *model, const PlayOverlayFac
     overlay->device_count = box_control_devices(model->control, overlay->devices);
     world_def_at(&model->open.scene.world, particles->time); /* present values of tables */
     *data = (PanelData){.scene = &model->open.scene,
+                        .about = facts->about,
                         .recorded = !model->open.source->simulates,
                         .render_stages_known = facts->gl_times != NULL,
                         .render_ms = facts->frame_times->last_drawn_ms,

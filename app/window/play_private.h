@@ -221,10 +221,10 @@ typedef struct PlayPicture {
     double shaders_due_ms;  /* wall time of the next check of these files */
 } PlayPicture;
 
-/* picture_read_display: reads the display's properties; picture_start: with a scene, makes all objects for
-   drawing. */
-void picture_read_display(PlayPicture *picture, const Window *window);
-bool picture_start(PlayPicture *picture, const PlayScene *open, float letters, Error *error);
+/* picture_read_display: reads the display's properties, and makes the letters; picture_start: with a scene,
+   makes all objects for drawing. */
+bool picture_read_display(PlayPicture *picture, const Window *window, Error *error);
+bool picture_start(PlayPicture *picture, const PlayScene *open, Error *error);
 void picture_end(PlayPicture *picture);
 
 /* Text height in the window, pixels. */
@@ -262,8 +262,13 @@ void picture_draw(PlayPicture *picture, const ParticleBuffers *const states[], c
 void picture_present(PlayPicture *picture);
 void picture_clear(const PlayPicture *picture, const ViewDef *view);
 
-/* Writes one line, or up to four in a narrow picture; NULL: none. */
-void picture_draw_words(const PlayPicture *picture, const char *words, float below);
+/* Writes words in a box of up to six lines, broken at blanks; NULL: none. The box lies `below` pixels over
+   the lower edge, in the middle of the room right of `covered_left` of the width, 0 .. 1. */
+void picture_draw_words(const PlayPicture *picture, const char *words, double covered_left, float below);
+
+/* Shows words at once over the last picture, or over the view's background; for what takes long between two
+   pictures. */
+void picture_say(PlayPicture *picture, const ViewDef *view, const char *words, Window *window);
 
 /* close: ends drawing. done: true if the GPU has finished; waits up to 2 ms, so call until true. */
 void picture_close(PlayPicture *picture);
@@ -336,6 +341,7 @@ typedef struct PlayOverlayFacts {
     const char *renderer;
     const FrameTimes *frame_times;
     const StageTimes *gl_times; /* NULL: the stages of a picture cannot be timed */
+    const char *about;          /* the head of the scene file; NULL: none */
     bool movie;                 /* a video is being recorded */
 } PlayOverlayFacts;
 
@@ -369,6 +375,23 @@ float play_overlay_covered_below(const PlayOverlay *overlay, const PlayModel *mo
 
 /* Part of the width taken by the panel, 0 .. 1; 0 if less than two fifths would remain. */
 double play_overlay_covered_left(const PlayOverlay *overlay, int width);
+
+/* What is said when a scene opens (welcome.c). Zero-initialise before use. */
+typedef struct Welcome {
+    char opening[192]; /* "opening TITLE ...", until the first picture */
+    char about[2048];  /* the head of the scene file; "": a recorded run, or none */
+    char words[512];   /* of the first seconds: what the scene is about, and what the hand can do */
+    double until_ms;   /* wall time of the end of the words; 0: taken away */
+    bool waits, stood; /* for the first picture; for welcome_changed */
+} Welcome;
+
+void welcome_begin(Welcome *welcome, const PlayScene *open); /* a scene opens */
+void welcome_shown(Welcome *welcome);                        /* after a picture with a state */
+
+/* An event of the user takes the words away; returns true if that changes the picture. */
+bool welcome_event(Welcome *welcome, const WindowEvent *event);
+const char *welcome_now(const Welcome *welcome); /* NULL: none */
+bool welcome_changed(Welcome *welcome);          /* since the last call: then a picture is due */
 
 /* The parts of a live window, each with its owner. Data flows one way: input -> requests -> model -> picture;
    only play.c and the files named below see all parts. */
@@ -408,6 +431,7 @@ typedef struct Play {
     SceneWatch scene_watch;
     FrameTimes frame_times;
     Notice notice;
+    Welcome welcome;
     double shake_seconds; /* given: more than 0: a script shakes the box for that time, then all ends */
     WindowShake shake;
     double looked_ms;      /* wall time of the last look during a picture */

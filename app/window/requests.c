@@ -49,8 +49,12 @@ void play_follow_scene(Play *play)
 bool requests_open_scene(Play *play, const char *scene, const SceneSettings *settings, Error *error)
 {
     const bool opened = model_open(&play->model, scene, settings, error);
-    if (opened)
+    if (opened) {
+        const Scene *is = &play->model.open.scene;
+        welcome_begin(&play->welcome, &play->model.open);
+        picture_say(&play->picture, &is->view, play->welcome.opening, play->window);
         play_follow_scene(play);
+    }
     return opened;
 }
 

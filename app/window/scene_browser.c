@@ -30,25 +30,32 @@ static size_t sentence_end(const char *text, size_t length)
     return length;
 }
 
-/* Extracts the first sentence of the head comment of a scene's text; "" without comment. Pure function. */
-static void scene_idea(const char *text, size_t size, char idea[256])
+void scene_head(const char *text, size_t size, char *head, size_t most)
 {
     size_t used = 0;
+    bool paragraph = false;
     const char *end = text + size;
-    while (text < end && *text == '#' && used < 255) {
+    *head = 0;
+    while (text < end && *text == '#' && used + 1 < most) {
         const char *line = text + 1;
         const char *stop = memchr(text, '\n', (size_t)(end - text));
         text = stop ? stop + 1 : end;
         while (line < end && *line == ' ')
             line++;
         const size_t length = stop && stop > line ? (size_t)(stop - line) : stop ? 0 : (size_t)(end - line);
-        if (length == 0)
-            break;
-        used += (size_t)snprintf(idea + used, 256 - used, "%s%.*s", used ? " " : "", (int)length, line);
-        used = used < 255 ? used : 255;
+        const char *gap = !used || length == 0 ? "" : paragraph ? "\n" : " ";
+        used += (size_t)snprintf(head + used, most - used, "%s%.*s", gap, (int)length, line);
+        used = used < most - 1 ? used : most - 1;
+        paragraph = length == 0;
     }
-    idea[sentence_end(idea, used)] = 0;
-    text_tame(idea); /* of a comment, which YAML does not look at */
+    text_tame(head); /* of a comment, which YAML does not look at */
+}
+
+/* The first sentence of the head. */
+static void scene_idea(const char *text, size_t size, char idea[256])
+{
+    scene_head(text, size, idea, 256);
+    idea[sentence_end(idea, strcspn(idea, "\n"))] = 0;
 }
 
 static void read_words(SceneRow *row)

@@ -409,7 +409,7 @@ static void wrapped(Ui *ui, const char *text, const ImVec4 &color)
 }
 
 // A click anywhere in the line switches.
-bool ui_title(Ui *ui, const char *text)
+bool ui_title(Ui *ui, const char *text, const char *help)
 {
     Current current(ui->context);
     bool *open = ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("open"), true);
@@ -424,6 +424,7 @@ bool ui_title(Ui *ui, const char *text)
     wrapped(ui, text, ImGui::GetStyleColorVec4(ImGuiCol_Text));
     ImGui::EndGroup();
     ImGui::PopFont();
+    tip(ui, help);
     if (ImGui::IsItemClicked())
         *open = !*open;
     return *open;

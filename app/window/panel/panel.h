@@ -19,6 +19,7 @@ typedef struct Panel Panel;
 
 typedef struct PanelData {
     const Scene *scene;           /* present values */
+    const char *about;            /* help of the title; NULL: none */
     bool recorded;                /* shows a recorded run: no solver data */
     double stage_ms[STAGE_COUNT]; /* per frame of the solver; per picture of the view */
     bool stage_ran[STAGE_COUNT];
