@@ -11,7 +11,7 @@
     X(fullscreen) X(panel) X(help) \
     X(camera_home) X(box_home) X(neutral) X(box_walls) X(box_smaller) X(box_larger) X(gravity_home) \
     X(touch) X(touch_way) X(touch_fluid) \
-    X(put_ball) X(put_box) X(put_like) X(take_solid) \
+    X(put_ball) X(put_box) X(put_fixed_ball) X(put_fixed_box) X(put_like) X(take_solid) \
     X(plane_back) X(plane_forward) X(plane_left) X(plane_right) X(plane_up) X(plane_down) X(plane_x) X(plane_y) X(plane_z) \
     X(pin) X(unpin) X(trail) \
     X(close) X(quit) \

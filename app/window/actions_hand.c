@@ -356,39 +356,61 @@ const UserAction action_touch_pad = {
 /* ---- solids ---- */
 
 /* By a shape (SolidCommand.like). */
-static void put_solid(Play *play, const ActionUse *use)
+static void put_light(Play *play, const ActionUse *use)
 {
-    play_put_solid(play, (int)use->action->by);
+    play_put_solid(play, (int)use->action->by, true);
+}
+
+static void put_fixed(Play *play, const ActionUse *use)
+{
+    play_put_solid(play, (int)use->action->by, false);
 }
 
 const UserAction action_put_ball = {
     .group = "Solids",
-    .example =
-        "press 1 over the fluid, then Q until the notice says hold, and drag the ball through the fluid",
+    .example = "press 1 over the fluid, and again: balls fall into it with a splash, and swim",
     .name = "put-ball",
-    .help = "put a solid ball where the mouse is, above the fluid there; the size is that of the touch",
+    .help = "let a light ball fall into the fluid under the mouse; its size is a third of the touch",
     .keys = {ON(1)},
     .needs = ACTION_OF_SIMULATION,
     .by = SOLID_LIKE_BALL,
-    .run_with = put_solid,
+    .run_with = put_light,
 };
 
 const UserAction action_put_box = {
     .name = "put-box",
-    .help = "put a solid box there",
+    .help = "let a light box fall there",
     .keys = {ON(2)},
     .needs = ACTION_OF_SIMULATION,
     .by = SOLID_LIKE_BOX,
-    .run_with = put_solid,
+    .run_with = put_light,
+};
+
+const UserAction action_put_fixed_ball = {
+    .name = "put-fixed-ball",
+    .help = "put a ball there that stays, above the fluid; touch: hold moves it",
+    .keys = {ON_SHIFT(1)},
+    .needs = ACTION_OF_SIMULATION,
+    .by = SOLID_LIKE_BALL,
+    .run_with = put_fixed,
+};
+
+const UserAction action_put_fixed_box = {
+    .name = "put-fixed-box",
+    .help = "put a box there that stays",
+    .keys = {ON_SHIFT(2)},
+    .needs = ACTION_OF_SIMULATION,
+    .by = SOLID_LIKE_BOX,
+    .run_with = put_fixed,
 };
 
 const UserAction action_put_like = {
     .name = "put-like",
-    .help = "put a solid of the same shape as the one under the mouse, a mesh too",
+    .help = "put a solid like the one under the mouse, a mesh too; it falls if that one floats",
     .keys = {ON(3)},
     .needs = ACTION_OF_SIMULATION,
     .by = SOLID_LIKE,
-    .run_with = put_solid,
+    .run_with = put_light,
 };
 
 const UserAction action_take_solid = {

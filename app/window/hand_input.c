@@ -169,13 +169,34 @@ static bool looks(Play *play, SightRay *ray)
     return true;
 }
 
-void play_put_solid(Play *play, int like)
+/* Half the density of the lightest fluid; 0 where nothing can float. */
+static double light(const WorldDef *def)
 {
+    double least = INFINITY;
+    for (int f = 0; f < def->fluid_count; f++)
+        least = fmin(least, def->fluids[f].density);
+    return def->periodic[0] || def->periodic[1] || def->periodic[2] ? 0 : 0.5 * least;
+}
+
+static void tell_put(Notice *notice, bool wished, bool floats)
+{
+    if (floats)
+        notice_tell(notice, "it falls from above the fluid; 0 over it takes it out");
+    else
+        notice_tell(notice, "a solid is put there, above the fluid; touch: hold moves it (Q)%s",
+                    wished ? "; nothing floats in a box with open sides" : "");
+}
+
+void play_put_solid(Play *play, int like, bool floats)
+{
+    static const double OF_RING = 1.0 / 3, LEAST = 1.6; /* of the ring of the touch; spacings */
     const Scene *scene = &play->model.open.scene;
+    const double spacing = scene->world.spacing, ring = touch_radius(&scene->touch, FINGER_STIR, spacing);
     SolidCommand command = {.act = SOLID_ACTION_PUT,
                             .like = like,
-                            .size = touch_radius(&scene->touch, FINGER_STIR, scene->world.spacing),
-                            .at = {0, 0.5 * scene->world.box_size[1], 0}};
+                            .size = fmax(OF_RING * ring, LEAST * spacing),
+                            .at = {0, 0.5 * scene->world.box_size[1], 0},
+                            .density = floats ? light(&scene->world) : 0};
     SightRay ray;
     double there[3];
     if (!looks(play, &ray))
@@ -186,14 +207,17 @@ void play_put_solid(Play *play, int like)
         notice_tell(&play->notice, "there is no solid under the mouse to be put once more");
         return;
     }
-    command.like += like == SOLID_LIKE ? solid : 0;
+    if (like == SOLID_LIKE) {
+        command.like += solid;
+        command.density = scene->world.solids[solid].density;
+    }
     model_take_state(&play->model); /* as for a press */
     if (solid >= 0)
         memcpy(command.at, there, sizeof there);
     else if (play->model.has_particles)
         pick_position(&play->model.particles, &ray, 0.5 * play->model.particles.spacing, command.at);
     if (model_solid(&play->model, &command))
-        notice_tell(&play->notice, "a solid is put there, above the fluid; touch: hold moves it (Q)");
+        tell_put(&play->notice, floats, command.density > 0);
 }
 
 void play_remove_solid(Play *play)

@@ -490,8 +490,9 @@ void play_apply_hand(Play *play);
 void play_mouse_ray(const Play *play, const PanelViewport *look, SightRay *ray, double forward[3]);
 
 /* play_put_solid puts a solid at the mouse, of the given shape (SolidCommand.like; SOLID_LIKE: like
-   the solid under the mouse); play_remove_solid removes the solid there. */
-void play_put_solid(Play *play, int like);
+   the solid under the mouse). `floats`: it has half the density of the lightest fluid, and falls; not in a
+   box with open sides. play_remove_solid removes the solid there. */
+void play_put_solid(Play *play, int like, bool floats);
 void play_remove_solid(Play *play);
 
 /* Sets gravity, in the world's frame, m/s2; or tilts by radians to the right and away in the

@@ -411,6 +411,35 @@ static World *made_with(const World *from, const WorldDef *def, const WorldState
     return NULL;
 }
 
+/* The index of the only solid of `before` missing in `after`; -1: any other change. */
+static int taken_out(const WorldDef *before, const WorldDef *after)
+{
+    int k = 0;
+    bool same = after->solid_count == before->solid_count - 1;
+    while (k < after->solid_count && same_solid(&before->solids[k], &after->solids[k]))
+        k++;
+    for (int i = k; i < after->solid_count; i++)
+        same &= same_solid(&before->solids[i + 1], &after->solids[i]);
+    return same ? k : -1;
+}
+
+/* Orders the states of floating solids by the numbers in `def`; new solids rest at the places of `def`. */
+static void renumber_bodies(const WorldDef *before, const WorldDef *def, BodyStates *states)
+{
+    const BodyStates old = *states;
+    const int taken = taken_out(before, def);
+    memset(states, 0, sizeof *states);
+    for (int k = 0; k < def->solid_count; k++) {
+        const int from = k + (taken >= 0 && k >= taken);
+        if (!solid_floats(&def->solids[k]))
+            continue;
+        if (from < before->solid_count && solid_floats(&before->solids[from]))
+            states->of[k] = old.of[from];
+        else
+            solid_pose(&def->solids[k], 0, &states->of[k].pose);
+    }
+}
+
 /* Rebuilds the world from a def with a different backend, solids, box or pouring; continues from the same
    state and replaces *world. Takes about as long as world_create, with twice the memory in the meantime.
    Returns false with the reason, with nothing changed. */
@@ -422,6 +451,7 @@ static bool world_rebuild(World **world, const WorldDef *def, Error *error)
     for (int k = 0; saved && k < def->dimensions; k++)
         if (def->box_size[k] < from->def.box_size[k])
             bring_in(&state, def, k);
+    renumber_bodies(&from->def, def, &state.numbers.bodies);
     World *to = saved ? made_with(from, def, &state, error) : NULL;
     world_state_free(&state);
     if (to && def->box_size[1] != from->def.box_size[1]) { /* the box turns about half its height */
@@ -462,18 +492,6 @@ static bool with_shapes(const World *world, const WorldDef *from, WorldDef *def,
     *all_same = same;
     return own_motions(def->solids, def->solid_count) ||
            error_set(error, "no memory for the motions of the solids");
-}
-
-/* The index of the only solid of `before` missing in `after`; -1: any other change. */
-static int taken_out(const WorldDef *before, const WorldDef *after)
-{
-    int k = 0;
-    bool same = after->solid_count == before->solid_count - 1;
-    while (k < after->solid_count && same_solid(&before->solids[k], &after->solids[k]))
-        k++;
-    for (int i = k; i < after->solid_count; i++)
-        same &= same_solid(&before->solids[i + 1], &after->solids[i]);
-    return same ? k : -1;
 }
 
 /* Renumbers the forces on solids after the removed solid. */

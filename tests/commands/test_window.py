@@ -708,7 +708,7 @@ class Mouse(Window):
         self.open('still.yaml', '--record', 'a.recording', '--set', 'touch.radius=1.5')
         self.keys('0')  # there is none
         self.at(240, 180)
-        self.keys('1')
+        self.keys('shift+1')
         self.drawn()
         self.drawn()
         self.display.press('shift')
@@ -719,13 +719,16 @@ class Mouse(Window):
             self.drag(1, [(240, y), (240, y + 20), (240, y + 40), (240, y + 60)])
         self.drag(3, [(240, 190), (250, 190), (260, 190)])
         self.at(180, 180)
-        self.keys('2', 'F12')
+        self.keys('shift+2', 'F12')
+        self.keys('1')  # a light one
+        self.drawn()
         self.keys('Escape')
         self.quit()
         self.assertRegex(self.messages, 'there is no solid under the mouse(.|\n)*hold')
         text = self.read('a.recording').decode()
         acts = re.findall(r'^\d+ solid (\w+) (\d)(.*)$', text, re.M)
-        self.assertEqual([acts[0][:2], acts[-1][:2]], [('put', '0'), ('put', '1')], acts)
+        self.assertEqual([acts[0][:2], acts[-1][:2]], [('put', '0'), ('put', '0')], acts)
+        self.assertEqual([len(rest.split()) for act, _, rest in acts if act == 'put'], [4, 4, 5], acts)  # with its density
         moves = [[float.fromhex(number) for number in rest.split()] for act, _, rest in acts if act == 'move']
         self.assertTrue(moves and min(move[1] for move in moves) < -0.05, acts)
         self.assertEqual(self.slosh('replay', 'a.recording', '--quiet', '--threads', '1'), (0, ''))

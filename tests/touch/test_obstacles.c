@@ -148,6 +148,71 @@ static void pushed_into_walls_it_loses_none(void **state)
     }
 }
 
+static BoxState body_of(Rig *rig, int solid)
+{
+    WorldInfo info;
+    rig_turn(rig);
+    world_info(rig->simulator->run.world, &info);
+    return info.floating[solid];
+}
+
+/* A light ball, then a light box fall and swim; the ball is taken out, and the box goes on as it was. */
+static void what_is_light_falls_and_swims(void **state)
+{
+    (void)state;
+    for (int s = 0; s < SCENES; s++) {
+        enum { BALL_AT = 2, BOX_AT = 5, OUT_AT = 60, LIGHT_FRAMES = 90 };
+        const SolidCommand ball = {
+            .act = SOLID_ACTION_PUT, .at = {-0.25, 0.2, 0}, .size = 0.12, .density = 500};
+        SolidCommand box = ball;
+        uint64_t hash[LIGHT_FRAMES + 1];
+        double from[2] = {0, 0};
+        Rig rig;
+        rig_open(&rig, scenes[s].text, 64 * MIB);
+        rig_ready(&rig);
+        const size_t count = rig.status.particles;
+        box.like = SOLID_LIKE_BOX;
+        box.at[0] = 0.3;
+        hash[0] = rig_hash(&rig);
+        for (int i = 1; i <= LIGHT_FRAMES; i++) {
+            BoxState before = {.orientation = {0, 0, 0, 1}};
+            if (i == BALL_AT)
+                send(&rig, &ball);
+            if (i == BOX_AT)
+                send(&rig, &box);
+            if (i == OUT_AT) {
+                before = body_of(&rig, 2);
+                send(&rig, &(SolidCommand){.act = SOLID_ACTION_TAKE, .solid = 1});
+            }
+            rig_step(&rig);
+            hash[i] = rig_hash(&rig);
+            none_is_lost(&rig, count, scenes[s].name);
+            if (i == BALL_AT || i == BOX_AT)
+                from[i == BOX_AT] = body_of(&rig, 1 + (i == BOX_AT)).position[1];
+            if (i == OUT_AT && fabs(body_of(&rig, 1).position[1] - before.position[1]) > 0.03)
+                fail_msg("%s: the box jumps from %g to %g m", scenes[s].name, before.position[1],
+                         body_of(&rig, 1).position[1]);
+            if (i == OUT_AT - 1)
+                for (int k = 0; k < 2; k++) {
+                    const double y = body_of(&rig, 1 + k).position[1];
+                    if (!(from[k] > 0.45 && y < from[k] - 0.02 && y > 0.2))
+                        fail_msg("%s: solid %d from %g to %g m", scenes[s].name, 1 + k, from[k], y);
+                }
+        }
+        if (strstr(rig.status.message, "solid")) /* the fluid alone may boil after the splash */
+            fail_msg("%s: %s", scenes[s].name, rig.status.message);
+        assert_int_equal(def_of(&rig)->solid_count, 2);
+        rig_save(&rig, "a.rec");
+        for (int i = LIGHT_FRAMES - 5; i >= 0; i -= 14) {
+            rig_go(&rig, 0.01 * i);
+            if (rig_hash(&rig) != hash[i])
+                fail_msg("%s: frame %d is another one", scenes[s].name, i);
+        }
+        rig_close(&rig);
+        assert_true(replay("a.rec") > 0);
+    }
+}
+
 static void size_to(Rig *rig, double width, double height)
 {
     const SimCommand command = {.kind = SIM_SIZE, .size = {width, height, 1}};
@@ -277,6 +342,7 @@ int main(void)
         cmocka_unit_test(it_follows_the_hand),
         cmocka_unit_test(it_is_replayed_and_undone),
         cmocka_unit_test(pushed_into_walls_it_loses_none),
+        cmocka_unit_test(what_is_light_falls_and_swims),
         cmocka_unit_test(the_box_changes_its_size),
         cmocka_unit_test(commands_of_one_step),
         cmocka_unit_test(a_backend_without_solids_says_so),

@@ -226,7 +226,7 @@ static void put_solid(FILE *file, const SimCommand *command)
     for (int k = 0; k < 4 && c->act == SOLID_ACTION_MOVE; k++)
         fprintf(file, " %a", c->turn[k]);
     if (c->act == SOLID_ACTION_PUT)
-        fprintf(file, " %a", c->size);
+        fprintf(file, c->density > 0 ? " %a %a" : " %a", c->size, c->density);
     putc('\n', file);
 }
 

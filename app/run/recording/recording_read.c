@@ -257,13 +257,13 @@ static bool read_solid(const LineReader *reader, const char *at, SolidCommand *s
     for (int k = 0; k < 4 && ok && act == SOLID_ACTION_MOVE; k++)
         ok = take_number(&at, &solid->turn[k]);
     if (ok && act == SOLID_ACTION_PUT)
-        ok = take_number(&at, &solid->size);
+        ok = take_number(&at, &solid->size) && (!*at || take_number(&at, &solid->density));
     return (ok && !*at) ||
            line_reader_fail(
                reader,
                "'%.60s' does nothing to a solid; move, its number, x y z (m) and a quaternion must stand "
                "here; or put, 0 (a ball), 1 (a box) or 2 more than the number of one that it is like, x y z "
-               "and half its size (m); or take and its number",
+               "and half its size (m), and a density (kg/m3) if it is to float; or take and its number",
                line + 1);
 }
 

@@ -55,7 +55,13 @@ static bool box_command_apply(const double size[3], World **world, WorldDef *def
     return true;
 }
 
-static const float COLOR[3] = {0.55F, 0.56F, 0.6F}; /* different from all fluid colours */
+/* Of put solids, by turns: different from all fluid colours. What stays is grey. */
+static const float COLORS[][3] = {{0.9F, 0.16F, 0.05F},
+                                  {0.95F, 0.6F, 0.03F},
+                                  {0.16F, 0.55F, 0.1F},
+                                  {0.55F, 0.1F, 0.5F},
+                                  {0.9F, 0.85F, 0.75F}};
+static const float FIXED_COLOR[3] = {0.55F, 0.56F, 0.6F};
 
 static const char *const acts[] = {"move", "put", "take"};
 
@@ -146,18 +152,22 @@ static bool make(const SolidCommand *command, const WorldInfo *info, const World
                        : (SolidDef){.kind = command->like == SOLID_LIKE_BALL ? SOLID_SPHERE : SOLID_BOX,
                                     .radius = command->size,
                                     .axis = {0, 1, 0}};
+    const float *color =
+        command->density > 0 ? COLORS[def->solid_count % (int)(sizeof COLORS / sizeof *COLORS)] : FIXED_COLOR;
     for (int k = 0; k < 3 && like < 0; k++) {
         solid->size[k] = k == 2 && def->dimensions == 2 ? def->spacing : 2 * command->size;
-        solid->color[k] = COLOR[k];
+        solid->color[k] = color[k];
     }
     solid->motion_count = 0;
-    solid->density = 0; /* stays where the hand holds the solid */
+    solid->density = command->density;
+    memset(solid->hinge_axis, 0, sizeof solid->hinge_axis);
     solid->hand = (SolidHand){.moved = false};
     memcpy(solid->centre, command->at, sizeof solid->centre);
     clamp_to_box(def, solid->centre);
     return (like >= 0 || command->size >= def->spacing ||
             error_set(error, "a solid must be two spacings wide")) &&
-           solid_hand_move(&solid->hand, none, upright, info->time, 1, 1, def->dimensions);
+           (command->density > 0 ||
+            solid_hand_move(&solid->hand, none, upright, info->time, 1, 1, def->dimensions));
 }
 
 /* True if the bounding balls of the solid and of a floating solid meet. */
@@ -233,9 +243,6 @@ static bool take(const SolidCommand *command, WorldDef *def, Error *error)
 {
     if (!has(def, command->solid, error))
         return false;
-    for (int k = command->solid; k < def->solid_count; k++)
-        if (def->solids[k].density > 0) /* the state of a floating solid is found by its number */
-            return error_set(error, "solid %d floats: neither it nor a solid before it is taken out", k);
     def->solid_count--;
     memmove(def->solids + command->solid, def->solids + command->solid + 1,
             (size_t)(def->solid_count - command->solid) * sizeof *def->solids);
@@ -246,8 +253,7 @@ static bool take(const SolidCommand *command, WorldDef *def, Error *error)
 /* Applies the command now: `world` may be replaced, `def` is its definition. The first move of a solid, a put
    and a take rebuild the world, which takes about as long as opening the scene. A solid reaches its place
    within about 0.15 s, no faster than the fluid tolerates; its centre stays in the box. Returns false with
-   the reason, without changes: no such solid, too many, no room, no solids on the backend, or the solid or
-   one with a higher number floats. */
+   the reason, without changes: no such solid, too many, no room, no solids on the backend. */
 static bool solid_command_apply(const SolidCommand *command, World **world, WorldDef *def, Error *error)
 {
     WorldDef after = *def;
