@@ -125,7 +125,12 @@ const UserAction action_link_cameras = {
 
 static void bring_camera_home(Play *play)
 {
+    double centre[2];
     camera_home(&play->camera, &play->model);
+    if (play->model.has_particles && picture_visible(&play->picture)) {
+        const PanelViewport look = play_viewport(play, play->picture.chosen);
+        play->model.open.scene.view.camera_auto |= !camera_sees_box(&look, centre);
+    }
     play_view_changed(play);
 }
 

@@ -111,6 +111,26 @@ static void draw_finger(Play *play, const PanelViewport *look, Text *text)
     handle_tool_draw_ring(look, &ring, text, tool.holds ? TOUCHES : RESTS);
 }
 
+/* An arrow at the panel's edge, in the direction of the box. */
+static void draw_way_to_box(const PanelViewport *look, const double centre[2], Text *text)
+{
+    static const uint32_t COLOR = 0xffc23dff;
+    const float em = text_height(text), wide = (float)look->at.width, high = (float)look->at.height;
+    const float middle[2] = {0.5F * wide, 0.5F * high}, edge[2] = {middle[0] - 2 * em, middle[1] - 2 * em};
+    float way[2] = {(float)centre[0] - middle[0], (float)centre[1] - middle[1]};
+    const float scale = fminf(edge[0] / fmaxf(fabsf(way[0]), 1), edge[1] / fmaxf(fabsf(way[1]), 1));
+    const float length = fmaxf(hypotf(way[0], way[1]), 1);
+    const float tip[2] = {middle[0] + scale * way[0], middle[1] + scale * way[1]};
+    for (int k = 0; k < 2; k++)
+        way[k] *= 1.5F * em / length;
+    const float x[] = {tip[0] + way[0], tip[0] - way[1], tip[0] + way[1]};
+    const float y[] = {tip[1] + way[1], tip[1] + way[0], tip[1] - way[0]};
+    text_begin_within(text, look->width, look->height,
+                      (int[]){look->at.x, look->at.y, look->at.width, look->at.height});
+    text_triangle(text, x, y, COLOR);
+    text_end(text);
+}
+
 /* Draws handles, the outline, the finger and the readout under the mouse. */
 static void draw_marks(Play *play)
 {
@@ -123,6 +143,12 @@ static void draw_marks(Play *play)
             !renderer_is_flat(panels_renderer(picture->panels, i)))
             draw_outline(&look, &goal, picture->text);
         handle_tool_draw(&play->handle_tool, &look, picture->text);
+        double centre[2];
+        const bool sees = camera_sees_box(&look, centre);
+        if (!sees)
+            draw_way_to_box(&look, centre, picture->text);
+        if (i == picture->chosen)
+            play->box_unseen = !sees;
         if (play->touch.on && !renderer_is_flat(panels_renderer(picture->panels, i)) &&
             i == picture_panel_at(picture, play->handle_tool.mouse[0], play->handle_tool.mouse[1]))
             draw_finger(play, &look, picture->text);
@@ -185,6 +211,7 @@ static const char *words_of(const Play *play)
     if (*play->scene_watch.broken.message)
         return play->scene_watch.broken.message;
     return play->model.status.failed   ? play->model.status.message
+           : play->box_unseen          ? "the box is out of the picture: A shows it, B brings it home"
            : play->model.has_particles ? welcome_now(&play->welcome)
                                        : play->welcome.opening;
 }

@@ -141,6 +141,10 @@ typedef struct HandleTool {
     bool wall;       /* the held handle belongs to a wall */
 } HandleTool;
 
+/* True if a corner of the box is in the panel. `centre`: the pixel of the box's centre, in the panel or
+   beyond; below the panel's lower edge for a box behind the eye. */
+bool camera_sees_box(const PanelViewport *look, double centre[2]);
+
 /* Resets: no handle is held. */
 void handle_tool_begin(HandleTool *handle_tool);
 
@@ -423,6 +427,7 @@ typedef struct Play {
     unsigned wall_messages; /* SimulatorStatus.messages at the taking of a wall */
     BoxTarget wanted;       /* the hand's target of the box */
     bool outlined;          /* an outline shows the target */
+    bool box_unseen;        /* no corner of the box is in the chosen view's last picture */
     Readout readout;
     PlayViews views;
     PlayPicture picture;

@@ -144,6 +144,22 @@ void camera_to_screen(const PlayModel *model, const ViewDef *view, const CameraS
                 covered(model, view, sight), &out->camera);
 }
 
+bool camera_sees_box(const PanelViewport *look, double centre[2])
+{
+    const double *size = look->particles->box_size;
+    bool seen = false;
+    for (int corner = 0; corner < 8; corner++) {
+        double pixel[2], at[3];
+        for (int k = 0; k < 3; k++)
+            at[k] = ((corner >> k & 1) - (k == 1 ? 0 : 0.5)) * size[k];
+        seen |= sight_pixel(&look->sight, at, pixel) && pixel[0] >= 0 && pixel[0] <= look->at.width &&
+                pixel[1] >= 0 && pixel[1] <= look->at.height;
+    }
+    if (!sight_pixel(&look->sight, (double[]){0, 0.5 * size[1], 0}, centre))
+        centre[0] = 0.5 * look->at.width, centre[1] = look->at.height; /* behind the eye */
+    return seen;
+}
+
 Orbit camera_now(const PlayCamera *camera, const PlayModel *model, const CameraSight *sight)
 {
     const ViewDef *view = &model->open.scene.view;

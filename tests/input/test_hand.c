@@ -69,12 +69,13 @@ static void keys_move_by_sides_a_second(void **state)
     for (int k = 0; k < 3; k++)
         input.move_rate[k] = k == 0 ? 1 : -1;
     check_told(&hand, &input, &target);
-    check_vector(target.position, 0.04, -0.04, 0.04, 1e-15, "position"); /* 0.1 s of 0.4 m/s */
+    const double way = 0.1 * HAND_SPEED * 0.4; /* 0.1 s in a box of 0.4 m */
+    check_vector(target.position, way, -way, way, 1e-15, "position");
 
     input.dt = 1000; /* the program was stopped */
     input.move_rate[1] = input.move_rate[2] = 0, input.move_rate[0] = 5;
     check_told(&hand, &input, &target);
-    check_vector(target.position, 0.04 + 0.4 * HAND_DT_MOST, -0.04, 0.04, 1e-15, "position");
+    check_vector(target.position, way + HAND_SPEED * 0.4 * HAND_DT_MOST, -way, way, 1e-15, "position");
     input.dt = -1;
     assert_false(hand_update(&hand, &input, size, &target));
 }
@@ -121,7 +122,7 @@ static void tilt_keys_lean_the_top(void **state)
 {
     (void)state;
     static const double top[3] = {0, 1, 0};
-    const double c = cos(M_PI / 20), s = sin(M_PI / 20); /* 0.1 s of 90 degrees a second */
+    const double angle = 0.1 * HAND_TURN_SPEED * M_PI / 180, c = cos(angle), s = sin(angle); /* 0.1 s */
     Hand hand = hand_at_rest();
     BoxTarget target;
     HandInput input = level();
@@ -234,7 +235,8 @@ static void what_spins_takes_the_near_face_to_the_right(void **state)
     HandInput input = level();
     input.dt = 0.1, input.spin_rate = 1;
     check_told(&hand, &input, &target);
-    check_turned(&target, (double[3]){0, 0, 1}, sin(M_PI / 20), 0, cos(M_PI / 20));
+    const double angle = 0.1 * HAND_TURN_SPEED * M_PI / 180;
+    check_turned(&target, (double[3]){0, 0, 1}, sin(angle), 0, cos(angle));
     hand_home(&hand);
     input.spin_rate = 0, input.spin_offset = 1;
     check_told(&hand, &input, &target);
