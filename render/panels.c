@@ -136,6 +136,16 @@ bool panels_unfinished(const Panels *panels)
     return any;
 }
 
+bool panels_can_improve(const Panels *panels)
+{
+    bool any = false, keeps = false;
+    for (int i = 0; i < panels->count; i++) {
+        any |= renderer_can_improve(panels_renderer(panels, i));
+        keeps |= renderer_keeps_states(panels_renderer(panels, i));
+    }
+    return any && !keeps;
+}
+
 int panels_count(const Panels *panels)
 {
     return panels->count;

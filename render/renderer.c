@@ -301,6 +301,17 @@ bool renderer_unfinished(const Renderer *renderer)
            ((renderer->view && view_unfinished(renderer->view)) || overlays_unfinished(&renderer->overlays));
 }
 
+bool renderer_can_improve(const Renderer *renderer)
+{
+    const ViewKind *kind = view_find(renderer->said.kind);
+    return renderer->said.quality == VIEW_AUTO && kind && kind->quality;
+}
+
+bool renderer_keeps_states(const Renderer *renderer)
+{
+    return overlays_keep_states(&renderer->overlays);
+}
+
 const char *renderer_missing(const Renderer *renderer)
 {
     const char *words = renderer->view ? view_missing(renderer->view) : NULL;

@@ -169,6 +169,15 @@ double panels_legend(const Panels *panels);
 /* As renderer_set_late, for all panels. panels_are_stale: true if renderer_is_stale is true for any panel. */
 void panels_set_late(Panels *panels, bool late);
 bool panels_are_stale(const Panels *panels);
+
+/* renderer_can_improve: true if view_in_file of the def draws a better picture of the same state: the def
+   leaves the quality to the program, and the view knows a best one. renderer_keeps_states: true with overlays
+   that gather states over time, which another renderer has not seen. panels_can_improve: true if other panels
+   would draw a better picture. */
+bool renderer_can_improve(const Renderer *renderer);
+bool renderer_keeps_states(const Renderer *renderer);
+bool panels_can_improve(const Panels *panels);
+
 /* As renderer_set_continuous and renderer_unfinished, for all panels. */
 void panels_set_continuous(Panels *panels, bool more);
 bool panels_unfinished(const Panels *panels);

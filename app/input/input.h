@@ -41,8 +41,8 @@ typedef struct HandInput {
 } HandInput;
 
 #define HAND_DT_MOST    0.25 /* s: after a stall a held key must not throw the box */
-#define HAND_SPEED      0.4  /* longest sides of the box per second, at rate 1 */
-#define HAND_TURN_SPEED 45.0 /* degrees per second, at rate 1 */
+#define HAND_SPEED      1.0  /* longest sides of the box per second, at rate 1 */
+#define HAND_TURN_SPEED 90.0 /* degrees per second, at rate 1 */
 #define HAND_SWAY       0.5  /* longest sides, at offset 1 */
 #define HAND_LEAN       45.0 /* degrees, at offset 1 */
 #define HAND_REACH      3.0  /* longest sides: greatest distance from home, so that the box is never lost */

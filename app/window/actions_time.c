@@ -270,6 +270,7 @@ const UserAction action_fullscreen = {
 static void turn_panel(Play *play)
 {
     play->overlay.panel = !play->overlay.panel;
+    play->picture.dirty = true; /* the fluid's room changes */
 }
 
 const UserAction action_panel = {

@@ -157,20 +157,26 @@ static void draw_marks(Play *play)
                                   picture->text, &play->notice);
 }
 
-static void draw_fluid(Play *play)
+/* `best`: the last picture once more, at best quality. */
+static void draw_fluid(Play *play, bool best)
 {
     PlayPicture *picture = &play->picture;
     const PlayModel *model = &play->model;
     const int count = panels_count(picture->panels);
+    const double covered_left = play_overlay_covered_left(&play->overlay, picture->width);
     const ViewDef *views[PANELS_MAX];
     const ParticleBuffers *states[PANELS_MAX];
     Title titles[PANELS_MAX];
+    Error error = {{0}};
     for (int i = 0; i < count; i++) {
         views[i] = views_def(&play->views, &model->open.scene, i);
         states[i] = model_state(model, views[i]);
     }
     model_titles(model, views, count, titles);
-    picture_draw(picture, states, titles, play_overlay_covered_left(&play->overlay, picture->width));
+    if (!best)
+        picture_draw(picture, states, titles, covered_left);
+    else if (!picture_draw_best(picture, &model->open, states, titles, covered_left, &error))
+        notice_error(&play->notice, error.message);
     events_poll_hand(play);
 }
 
@@ -185,7 +191,7 @@ static void take_files(Play *play)
         !scene_edits_embed(model, &carried, &error))
         notice_error(&play->notice, error.message);
     const ImageText text = embedded_scene_text(&carried, model->particles.time);
-    capture_take(&play->capture, picture->panels, picture->width, picture->height,
+    capture_take(&play->capture, picture_panels(picture), picture->width, picture->height,
                  carried.scene ? &text : NULL, &play->notice);
     embedded_scene_free(&carried);
 }
@@ -196,7 +202,7 @@ static void present_fluid(Play *play, bool fresh)
     PlayPicture *picture = &play->picture;
     picture_present(picture);
     events_poll_hand(play);
-    if (fresh)
+    if (fresh || play->capture.screenshot)
         take_files(play);
     draw_marks(play);
     events_poll_hand(play);
@@ -248,19 +254,22 @@ bool draw_needs_fluid(const Play *play)
            model_has_new_state(&play->model) || capture_due(&play->capture);
 }
 
-static void draw_now(Play *play)
+/* `best`: at rest, at best quality. */
+static void draw_now(Play *play, bool best)
 {
     PlayPicture *picture = &play->picture;
     const double began = wall_ms();
     const bool whole = draw_needs_fluid(play) || !play->model.paused || !play->model.has_particles ||
-                       play->capture.screenshot;
+                       (play->capture.screenshot && !picture->best_shown);
     if (whole)
         model_take_state(&play->model);
     picture->dirty = picture->over = false;
     picture->finer = picture->finer && play->model.has_particles; /* a new scene has no state yet to refine */
     picture->begun_ms = began;
     if (play->model.has_particles && whole)
-        draw_fluid(play);
+        draw_fluid(play, false);
+    if (play->model.has_particles && (best || play->capture.screenshot) && picture_best_due(picture))
+        draw_fluid(play, true);
     if (play->model.has_particles)
         present_fluid(play, whole);
     else
@@ -275,11 +284,28 @@ static void draw_now(Play *play)
         count_picture(play, began);
 }
 
-void draw_picture(Play *play)
+bool draw_rests(const Play *play)
+{
+    return play->model.paused && play->model.has_particles && play->model.status.rests &&
+           !play->capture.video && !play->handle_tool.taken && !input_busy(&play->input) &&
+           picture_visible(&play->picture) && picture_best_due(&play->picture);
+}
+
+static void draw(Play *play, bool best)
 {
     if (!picture_visible(&play->picture))
         return;
     play->drawing = true;
-    draw_now(play);
+    draw_now(play, best);
     play->drawing = false;
+}
+
+void draw_picture(Play *play)
+{
+    draw(play, false);
+}
+
+void draw_best_picture(Play *play)
+{
+    draw(play, true);
 }

@@ -328,7 +328,7 @@ static void add_keys(const PlayInput *input, HandInput *hand)
     const HeldKey *key;
     for (int i = 0; (key = user_action_held_key(i)); i++)
         if (input->down[key->key] && key->modifiers == modifiers)
-            *(double *)(void *)((char *)hand + key->rate) += key->sign;
+            *(double *)(void *)((char *)hand + key->rate) += INPUT_KEY_RATE * key->sign;
 }
 
 /* GLFW's y axis of a stick points down. */

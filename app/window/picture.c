@@ -42,15 +42,26 @@ static const WorldDef *world_of(const PlayScene *open, const ViewDef *view)
     return beside ? beside : &open->scene.world;
 }
 
-/* Creates new panels; on failure the old panels stay. */
-static bool replace_panels(PlayPicture *picture, const PlayScene *open, int width, int height, Error *error)
+/* The subjects of all panels; `best`: at the quality of files. `views` has room for the defs. Returns the
+   count. */
+static int subjects_of(const PlayPicture *picture, const PlayScene *open, bool best, ViewDef views[],
+                       Subject subjects[])
 {
-    Subject subjects[PANELS_MAX] = {{NULL}};
     const int count = scene_view_count(&open->scene);
     for (int i = 0; i < count; i++) {
         const ViewDef *view = shown(&open->scene, count > 1 ? picture->chosen : 0, i);
-        subjects[i] = (Subject){view, world_of(open, view)};
+        views[i] = best ? view_in_file(view) : *view;
+        subjects[i] = (Subject){&views[i], world_of(open, view)};
     }
+    return count;
+}
+
+/* Creates new panels; on failure the old panels stay. */
+static bool replace_panels(PlayPicture *picture, const PlayScene *open, int width, int height, Error *error)
+{
+    ViewDef views[PANELS_MAX];
+    Subject subjects[PANELS_MAX] = {{NULL}};
+    const int count = subjects_of(picture, open, false, views, subjects);
     Panels *panels = panels_create(subjects, count, width, height, error);
     if (!panels)
         return false;
@@ -62,6 +73,24 @@ static bool replace_panels(PlayPicture *picture, const PlayScene *open, int widt
     picture->chosen = picture->chosen < count ? picture->chosen : 0;
     panels_set_marked(panels, picture->chosen);
     return true;
+}
+
+/* Brings the best panels up to date. */
+static bool follow_best(PlayPicture *picture, const PlayScene *open, Error *error)
+{
+    ViewDef views[PANELS_MAX];
+    Subject subjects[PANELS_MAX] = {{NULL}};
+    const int count = subjects_of(picture, open, true, views, subjects);
+    if (picture->best && panels_count(picture->best) != count) {
+        panels_destroy(picture->best);
+        picture->best = NULL;
+    }
+    if (!picture->best)
+        return (picture->best = panels_create(subjects, count, picture->width, picture->height, error));
+    bool set = panels_resize(picture->best, picture->width, picture->height, error);
+    for (int i = 0; i < count && set; i++)
+        set = panels_set_def(picture->best, i, subjects[i].def, subjects[i].world, error);
+    return set;
 }
 
 bool picture_start(PlayPicture *picture, const PlayScene *open, Error *error)
@@ -79,6 +108,7 @@ void picture_end(PlayPicture *picture)
     gl_timer_destroy(picture->timer);
     gl_timer_destroy(picture->pauses);
     panels_destroy(picture->panels);
+    panels_destroy(picture->best);
 }
 
 /* Sets the views of all panels. */
@@ -97,6 +127,7 @@ void picture_set_view(PlayPicture *picture, const PlayScene *open, int chosen, N
     Error error = {{0}};
     const int width = (int)fmax(picture->width, 1), height = (int)fmax(picture->height, 1);
     picture->dirty = true;
+    picture->best_fails = false;
     picture->chosen = chosen;
     if (!(panels_count(picture->panels) != scene_view_count(&open->scene)
               ? replace_panels(picture, open, width, height, &error)
@@ -186,21 +217,52 @@ bool picture_reload(PlayPicture *picture, const PlayScene *open, Error *error)
     return replace_panels(picture, open, picture->width, picture->height, error);
 }
 
+static void prepare(Panels *panels, const Title titles[], double covered_left)
+{
+    Error error;
+    for (int i = 0; i < panels_count(panels); i++)
+        panels_set_title(panels, i, &titles[i], &error); /* without a font the old title stays */
+    panels_set_covered(panels, covered_left, &error);    /* without room the old layout stays */
+}
+
 void picture_draw(PlayPicture *picture, const ParticleBuffers *const states[], const Title titles[],
                   double covered_left)
 {
-    Error error;
-    for (int i = 0; i < panels_count(picture->panels); i++)
-        panels_set_title(picture->panels, i, &titles[i], &error); /* without a font the old title stays */
-    panels_set_covered(picture->panels, covered_left, &error);    /* without room the old layout stays */
+    prepare(picture->panels, titles, covered_left);
     panels_draw(picture->panels, states, picture->timer ? picture->timer : picture->pauses);
     picture->finer = panels_unfinished(picture->panels);
+    picture->best_shown = false;
+    picture->drawn_ms = wall_ms();
     gl_timer_frame(picture->timer, &picture->gl_times);
+}
+
+bool picture_draw_best(PlayPicture *picture, const PlayScene *open, const ParticleBuffers *const states[],
+                       const Title titles[], double covered_left, Error *error)
+{
+    picture->best_fails = !follow_best(picture, open, error);
+    if (picture->best_fails)
+        return false;
+    panels_set_marked(picture->best, picture->chosen);
+    prepare(picture->best, titles, covered_left);
+    panels_draw(picture->best, states, picture->pauses);
+    picture->best_shown = true;
+    return true;
+}
+
+bool picture_best_due(const PlayPicture *picture)
+{
+    return picture->panels && !picture->best_shown && !picture->best_fails && !picture->finer &&
+           panels_can_improve(picture->panels);
+}
+
+const Panels *picture_panels(const PlayPicture *picture)
+{
+    return picture->best_shown ? picture->best : picture->panels;
 }
 
 void picture_present(PlayPicture *picture)
 {
-    panels_present(picture->panels);
+    panels_present(picture_panels(picture));
 }
 
 void picture_clear(const PlayPicture *picture, const ViewDef *view)

@@ -17,7 +17,8 @@
 #include <unistd.h>
 
 static const float PANEL_FROM_EM =
-    56; /* the panel takes less than half of windows wider than so many letters */
+    56;                            /* the panel takes less than half of windows wider than so many letters */
+static const double REST_MS = 300; /* before a picture at rest is drawn at best quality */
 static const double IDLE_MS = 100, HELD_MS = 8, PATIENCE_MS = 1000, WORK_MS = 4;
 
 /* The window's parts and resources. */
@@ -135,6 +136,8 @@ static void pause_or_draw(Play *play)
     const bool wanted = picture_visible(picture) && (picture->over || draw_needs_fluid(play));
     if (wanted && now >= due)
         draw_picture(play);
+    else if (!wanted && now >= picture->drawn_ms + REST_MS && draw_rests(play))
+        draw_best_picture(play);
     else if (wanted)
         window_wait(play->window, 1e-3 * fmin(fmax(due - now, 0.1), work));
     else
@@ -190,8 +193,8 @@ static bool run(PlaySession *session, Error *error)
         scene_watch_poll(play);
         if (!picture_follow_size(&play->picture, play->window, error))
             return false;
-        play->picture.dirty |= notice_changed(&play->notice) | play_overlay_poll(&play->overlay);
-        play->picture.over |= welcome_changed(&play->welcome);
+        play->picture.over |= notice_changed(&play->notice) | play_overlay_poll(&play->overlay) |
+                              welcome_changed(&play->welcome);
         if (interrupt_progress_requested())
             tell_figures(session);
         if (!play->quit)

@@ -209,6 +209,10 @@ bool readout_draw(Readout *readout, const Panels *panels, int width, int height,
 /* Zero-initialise before use. */
 typedef struct PlayPicture {
     Panels *panels;  /* one per shown view */
+    Panels *best;    /* the same at best quality, for a picture at rest and for files; NULL: not made yet */
+    bool best_shown; /* the last picture is of `best` */
+    bool best_fails; /* the last try failed, and was reported */
+    double drawn_ms; /* wall time of the end of the last picture of `panels` */
     int chosen;      /* panel of the chosen view */
     GlTimer *timer;  /* NULL on a software renderer, where measuring would wait: */
     GlTimer *pauses; /* there a disabled timer, for its calls between the passes of a long picture */
@@ -264,6 +268,14 @@ bool picture_outdated(const PlayPicture *picture);
 void picture_draw(PlayPicture *picture, const ParticleBuffers *const states[], const Title titles[],
                   double covered_left);
 void picture_present(PlayPicture *picture);
+
+/* picture_draw_best: draws the same once more at best quality; present then shows that picture. It takes up
+   to a second on a software driver. Returns false on failure: the picture stays as it is. picture_best_due:
+   true if a picture that rests could be better. picture_panels: the panels of the last picture. */
+bool picture_draw_best(PlayPicture *picture, const PlayScene *open, const ParticleBuffers *const states[],
+                       const Title titles[], double covered_left, Error *error);
+bool picture_best_due(const PlayPicture *picture);
+const Panels *picture_panels(const PlayPicture *picture);
 void picture_clear(const PlayPicture *picture, const ViewDef *view);
 
 /* Writes words in a box of up to six lines, broken at blanks; NULL: none. The box lies `below` pixels over
@@ -561,6 +573,11 @@ void events_process_moves(Play *play);
    picture of the fluid is due. */
 void draw_picture(Play *play);
 bool draw_needs_fluid(const Play *play);
+
+/* draw_rests: true if nothing moves and the picture could be better; draw_best_picture then draws it once at
+   the best quality. */
+bool draw_rests(const Play *play);
+void draw_best_picture(Play *play);
 
 /* ---- play_report.c: figures of a session ---- */
 

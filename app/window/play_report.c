@@ -282,7 +282,7 @@ void play_figures_fill(const Play *play, PlayFigures *figures)
     add_readout(&play->readout, figures);
     figures->at_rest = play->model.status.rests && !model_has_new_state(&play->model) &&
                        !play->capture.screenshot && picture_at_rest(&play->picture);
-    figures->finer_to_come = play->picture.finer;
+    figures->finer_to_come = play->picture.finer || draw_rests(play);
     figures->video_pictures = play->capture.pictures;
     figures->views = scene_view_count(&play->model.open.scene);
     for (int i = 0; i < figures->views; i++)

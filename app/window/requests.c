@@ -140,7 +140,7 @@ static void act(Play *play, const Request *request)
     const UserAction *action = request->action;
     ActionUse use = {.action = action, .held = request->held};
     memcpy(use.amount, request->amount, sizeof use.amount);
-    play->picture.dirty = true;
+    play->picture.over = true; /* what changes the fluid's picture says so itself */
     if (!may_act(play, action))
         return;
     if (action->run)

@@ -203,6 +203,9 @@ bool input_touches(const PlayInput *input);
 bool input_holds_box(const PlayInput *input);
 bool input_busy(const PlayInput *input);
 
+/* Rate of the box while a key is held, of the rates of HandInput: gentle, as a key has no half way. */
+#define INPUT_KEY_RATE 0.4
+
 /* Adds the input since the last call to the hand's input; `pad` NULL: no gamepad; `metres`: size of a pixel.
    Returns the wall time of the first event included, or 0. */
 double input_fill_hand(PlayInput *input, const WindowGamepad *pad, double metres, HandInput *hand,

@@ -184,11 +184,11 @@ static void what_is_held_moves_the_box(void **state)
     assert_true(input_busy(&input));
     assert_true(input_fill_hand(&input, &pad, 0.5, &hand, &asks) == 8);
     assert_true(hand.move_drag[0] == 15 && hand.move_drag[1] == 10);
-    assert_true(hand.move_rate[0] == 1 && hand.move_offset[0] > 0.9);
+    assert_true(hand.move_rate[0] == INPUT_KEY_RATE && hand.move_offset[0] > 0.9);
     assert_ptr_equal(next(REQUEST_ACTION).action, &action_box_home);
     hand = (HandInput){.dt = 0};
     assert_true(input_fill_hand(&input, &pad, 0.5, &hand, &asks) == 0);
-    assert_true(hand.move_drag[0] == 0 && hand.move_rate[0] == 1);
+    assert_true(hand.move_drag[0] == 0 && hand.move_rate[0] == INPUT_KEY_RATE);
     no_more(); /* the button is still down */
 }
 
