@@ -170,10 +170,10 @@ double panels_legend(const Panels *panels);
 void panels_set_late(Panels *panels, bool late);
 bool panels_are_stale(const Panels *panels);
 
-/* renderer_can_improve: true if view_in_file of the def draws a better picture of the same state: the def
-   leaves the quality to the program, and the view knows a best one. renderer_keeps_states: true with overlays
-   that gather states over time, which another renderer has not seen. panels_can_improve: true if other panels
-   would draw a better picture. */
+/* renderer_can_improve: true if view_in_file of the def draws a better picture of the same state. The def
+   then leaves the quality to the program, and the view knows a best one. renderer_keeps_states: true with
+   overlays that gather states over time, which another renderer has not seen. panels_can_improve: true if
+   other panels would draw a better picture. */
 bool renderer_can_improve(const Renderer *renderer);
 bool renderer_keeps_states(const Renderer *renderer);
 bool panels_can_improve(const Panels *panels);
