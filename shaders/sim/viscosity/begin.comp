@@ -87,14 +87,16 @@ float held_by_walls(vec3 x, float volume, vec3 v)
 #endif
 }
 
-// Inverse of a symmetric matrix, in double precision like `invert`: some eigenvalues may be a millionth of others.
-void invert(inout vec3 diagonal, inout vec3 mixed)
+// Inverse of a symmetric matrix whose eigenvalues are at least `least`, some a millionth of others: by the factors
+// L D L^T, since cofactors in single precision would lose the small eigenvalues. Sums of positive terms keep the inverse
+// positive, as conjugate gradients need. `invert` of sim/methods/shared/viscosity.c does it in double precision.
+void invert(inout vec3 diagonal, inout vec3 mixed, float least)
 {
-    dvec3 d = dvec3(diagonal), m = dvec3(mixed);
-    dvec3 minors = d.yzx * d.zxy - m.yzx * m.yzx, others = m.yzx * m.zxy - m * d.zxy;
-    double scale = 1.0lf / (d.x * minors.x + m.x * others.x + m.z * others.z);
-    diagonal = vec3(scale * minors);
-    mixed = vec3(scale * others);
+    float a = diagonal.x, low = mixed.x / a, far = mixed.z / a;
+    float b = max(diagonal.y - low * mixed.x, least), rest = mixed.y - far * mixed.x, up = rest / b;
+    float c = max(diagonal.z - far * mixed.z - up * rest, least), corner = low * up - far;
+    diagonal = vec3(1.0 / a + low * low / b + corner * corner / c, 1.0 / b + up * up / c, 1.0 / c);
+    mixed = vec3(-low / b - corner * up / c, -up / c, corner / c);
 }
 
 void main()
@@ -120,7 +122,7 @@ void main()
 #ifdef SOLIDS
     residual -= 0.5 * scale * times(held_diagonal, held_mixed, change); // the sums have the other half
 #endif
-    invert(diagonal, mixed);
+    invert(diagonal, mixed, inertia);
     column_set(SCRATCH_viscosity_residual, i, residual);
     column_set(SCRATCH_viscosity_velocity_change, i, change);
     column_set(SCRATCH_viscosity_direction, i, vec3(0));
