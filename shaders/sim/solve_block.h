@@ -1,5 +1,6 @@
 /* State of an iterating solver on the GPU; sim/gpu/compute/stages.c initializes and reads the block. The
-   first three members are the work groups of the solver's passes, read by the driver: 0 after the end. */
+   first members are the work groups of the solver's passes, of the sums of its residual and of its decision,
+   read by the driver: 0 after the end. */
 #ifndef SLOSH_SOLVE_BLOCK_H
 #define SLOSH_SOLVE_BLOCK_H
 
@@ -11,6 +12,12 @@ STORAGE_BLOCK(SolveBlock, SOLVE_BUFFER)
     uint groups_along;
     uint groups_rows;
     uint groups_deep;
+    uint sums_along;
+    uint sums_rows;
+    uint sums_deep;
+    uint decisions_along;
+    uint decisions_rows;
+    uint decisions_deep;
     uint iterations; /* done */
     float left_mean; /* residual, as last measured */
     float left_most;

@@ -18,7 +18,7 @@ bool decide(float mean, float greatest)
     if (iterations < iterations_most && far)
         return true;
     ended = 1u;
-    groups_along = groups_rows = 0u;
+    groups_along = sums_along = decisions_along = 0u;
     return false;
 }
 
@@ -35,9 +35,14 @@ float scale_of(float sum) { return scaled == 0u || sum == 0.0 ? 1.0 : float(part
 
 void main()
 {
-    uint own = gl_LocalInvocationID.x;
-    sums[own] = vec4(part[own].above, part[own].greatest, part[own].power, part[own].curvature);
-    scales[own] = part[64 * EXCESS_OF_SCALE + own].above;
+    uint own = gl_LocalInvocationID.x, parts = sums_along;
+    vec4 found = vec4(0);
+    scales[own] = 0.0;
+    for (uint k = own; k < parts; k += 64u) {
+        found = vec4(found.x + part[k].above, max(found.y, part[k].greatest), found.zw + vec2(part[k].power, part[k].curvature));
+        scales[own] += part[parts * EXCESS_OF_SCALE + k].above;
+    }
+    sums[own] = found;
     for (uint half_count = 32u; half_count > 0u; half_count >>= 1u) {
         barrier();
         if (own < half_count) {
@@ -46,7 +51,7 @@ void main()
             scales[own] += scales[own + half_count];
         }
     }
-    if (own > 0u || ended != 0u)
+    if (own > 0u)
         return;
     float scale = scale_of(scales[0]);
     if (decide(scale * (sums[0].x / max(float(particles_there()), 1.0)), scale * sums[0].y))

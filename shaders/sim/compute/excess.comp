@@ -1,5 +1,5 @@
 // Sums the positive part of a scratch column, and for a residual of conjugate gradients two further columns. Each
-// invocation adds every 4096th particle, each group its invocations.
+// invocation adds particles as far apart as there are invocations, each group its invocations.
 #include "sim/constants.glsl"
 #include "sim/scratch.glsl"
 #include "shaders/sim/excess_part.h"
@@ -9,9 +9,9 @@ shared vec4 sums[64];                              // sum, greatest, power, curv
 
 void main()
 {
-    uint own = gl_LocalInvocationID.x;
+    uint own = gl_LocalInvocationID.x, count = particle_count();
     vec4 found = vec4(0);
-    for (uint i = invocation(); i < particle_count(); i += 64u * gl_NumWorkGroups.x) {
+    for (uint i = invocation(); i < count; i += 64u * gl_NumWorkGroups.x) {
         float value = scratch[column.x + i];
         found.x += value < 0.0 ? 0.0 : value; // NaN stays
         found.y = value > found.y ? value : found.y;

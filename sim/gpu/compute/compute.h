@@ -12,8 +12,8 @@ enum {
     COMPUTE_GROUP = 64,
     COMPUTE_LAYER = 4096,
     COMPUTE_GAUGE_GROUPS = 64,
-    COMPUTE_EXCESS_GROUPS = 64, /* number of groups summed by decide.comp */
-    COMPUTE_ALONG = 65535,      /* work groups per row */
+    COMPUTE_EXCESS_GROUPS_MOST = 512,
+    COMPUTE_ALONG = 65535, /* work groups per row */
     COMPUTE_NAMED = 19,
     COMPUTE_BINDINGS = 32,                    /* more than shaders/sim/bindings.h and the methods have */
     COMPUTE_BUFFERS = METHOD_BUFFERS_MAX + 4, /* of the method, and a buffer per term */
@@ -146,7 +146,7 @@ typedef struct Compute {
     float longest;                        /* longest dt of the kicks since the watch was read, s */
     Mailbox solve;                        /* SolveBlock; none if no pass iterates */
     Mailbox parts;                        /* ExcessPart per group: iterate.c; none if no pass iterates */
-    bool decided;                         /* the method's passes take their number of work groups from
+    bool decided;                         /* passes of a solver take their number of work groups from
                                              SolveBlock */
     Mailbox gauge;                        /* GaugePart per group; none before the first `gauge` */
     Mailbox energy;                       /* energy.comp: sums per group; none before the first */

@@ -200,14 +200,25 @@ static void bind_blocks(Compute *c)
         glBindBuffersBase(GL_UNIFORM_BUFFER, FIRST, sizeof blocks / sizeof *blocks, blocks);
 }
 
+/* Offset in SolveBlock of a solver's number of work groups; -1: the caller's number counts. */
+static GLintptr decided_at(const Compute *c, ComputePass pass)
+{
+    return !c->decided              ? -1
+           : pass >= COMPUTE_METHOD ? (GLintptr)offsetof(SolveBlock, groups_along)
+           : pass == COMPUTE_EXCESS ? (GLintptr)offsetof(SolveBlock, sums_along)
+           : pass == COMPUTE_DECIDE ? (GLintptr)offsetof(SolveBlock, decisions_along)
+                                    : -1;
+}
+
 void compute_run(Compute *c, ComputePass pass, size_t count)
 {
+    const GLintptr decided = decided_at(c, pass);
     const bool watched = pass == COMPUTE_KICK || pass == COMPUTE_DRIFT;
     bind_blocks(c);
     use(c, pass);
-    if (c->decided && pass >= COMPUTE_METHOD) {
+    if (decided >= 0) {
         glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, c->solve.buffer);
-        glDispatchComputeIndirect(offsetof(SolveBlock, groups_along));
+        glDispatchComputeIndirect(decided);
     } else
         dispatch((count + COMPUTE_GROUP - 1) / COMPUTE_GROUP);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | (watched ? GL_UNIFORM_BARRIER_BIT : 0));

@@ -97,12 +97,20 @@ enum { MORE = 2 }; /* iterations beyond those of the last step */
 /* Summed columns: the residual, its scale, and requested columns. */
 enum { RESIDUAL_PARTS, SCALE_PARTS = EXCESS_OF_SCALE, ASKED_PARTS, PARTS = ASKED_PARTS + ITERATION_ASKED };
 
+/* A group for each 1024 particles: of the capacity, so that no other number changes the sums. */
+static size_t excess_groups(const Compute *c)
+{
+    const size_t groups = c->capacity / 1024;
+    return groups < COMPUTE_GROUP                ? COMPUTE_GROUP
+           : groups < COMPUTE_EXCESS_GROUPS_MOST ? groups
+                                                 : COMPUTE_EXCESS_GROUPS_MOST;
+}
+
 bool compute_iterate_fit(Compute *c)
 {
     if (c->parts.buffer || !compute_iterates(c->constants))
         return true;
-    return mailbox_create(&c->parts, "parts of residuals",
-                          (size_t)PARTS * COMPUTE_EXCESS_GROUPS * sizeof(ExcessPart)) &&
+    return mailbox_create(&c->parts, "parts of residuals", PARTS * excess_groups(c) * sizeof(ExcessPart)) &&
            mailbox_create(&c->solve, "solver", sizeof(SolveBlock));
 }
 
@@ -112,6 +120,12 @@ static void begin(const Compute *c, const Iteration *iteration)
     const SolveBlock block = {.groups_along = (uint)(groups > COMPUTE_ALONG ? COMPUTE_ALONG : groups),
                               .groups_rows = (uint)((groups + COMPUTE_ALONG - 1) / COMPUTE_ALONG),
                               .groups_deep = 1,
+                              .sums_along = (uint)excess_groups(c),
+                              .sums_rows = 1,
+                              .sums_deep = 1,
+                              .decisions_along = 1,
+                              .decisions_rows = 1,
+                              .decisions_deep = 1,
                               .iterations = iteration->begun ? UINT32_MAX : 0, /* the first measure adds 1 */
                               .tolerance = (float)iteration->tolerance,
                               .worst = (float)iteration->worst,
@@ -132,16 +146,17 @@ static void sum_up(Compute *c, const ColumnDef *column, int which, const ColumnD
                    const ColumnDef *curvature)
 {
     glProgramUniform4ui(c->program[COMPUTE_EXCESS], COLUMN_AT, place_of(c, column),
-                        (GLuint)(which * COMPUTE_EXCESS_GROUPS), place_of(c, power), place_of(c, curvature));
+                        (GLuint)which * (GLuint)excess_groups(c), place_of(c, power), place_of(c, curvature));
     BIND(c, [SCRATCH_BUFFER] = c->scratch, [PARTS_BUFFER] = c->parts.buffer);
-    compute_run(c, COMPUTE_EXCESS, (size_t)COMPUTE_EXCESS_GROUPS * COMPUTE_GROUP);
+    compute_run(c, COMPUTE_EXCESS, excess_groups(c) * COMPUTE_GROUP);
 }
 
 static Excess excess_of(const Compute *c, int which)
 {
-    const ExcessPart *part = (const ExcessPart *)c->parts.mapped + (ptrdiff_t)which * COMPUTE_EXCESS_GROUPS;
+    const size_t groups = excess_groups(c);
+    const ExcessPart *part = (const ExcessPart *)c->parts.mapped + (size_t)which * groups;
     Excess excess = {0};
-    for (int k = 0; k < COMPUTE_EXCESS_GROUPS; k++) {
+    for (size_t k = 0; k < groups; k++) {
         excess.mean += (double)part[k].above;
         excess.greatest = part[k].greatest > excess.greatest ? part[k].greatest : excess.greatest;
     }
@@ -177,8 +192,8 @@ static void iterate_once(Compute *c, const Iteration *iteration, const PassInput
     c->decided = true;
     for (int k = 0; iteration->passes[k]; k++)
         compute_pass(c, iteration->passes[k], input);
-    c->decided = false;
     decide(c, iteration);
+    c->decided = false;
 }
 
 void compute_iterate(void *state, const Iteration *iteration, const PassInput *input, StepSolve *solve)
