@@ -318,8 +318,8 @@ void bodies_poses(const Bodies *bodies, BoxState floating[SOLIDS_MAX], SolidPose
    stay valid until bodies_end. */
 void bodies_begin(Bodies *bodies, const BodiesStep *step);
 
-/* Applies the fluid forces up to the kick, and contacts; then moves the bodies through the second half,
-   unless BodiesIn.leaps. */
+/* Applies the fluid forces up to the kick, and contacts; then moves the bodies through the second half. With
+   BodiesIn.leaps only velocities change, and the call may come at the step's end. */
 void bodies_kick(Bodies *bodies);
 
 /* Ends a step: keeps the forces since the kick for the next kick. */

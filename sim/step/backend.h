@@ -239,6 +239,9 @@ typedef struct Backend {
     /* Brings sums of `enable_forces` from the device; waits. Returns false if memory is short. NULL: the sums
        are always up to date. `mark` and `back` include these sums. */
     bool (*forces_ready)(void *state);
+    /* Call after each step: brings what the next step or the caller needs of this step, with a single wait at
+       most. `forces`: as forces_ready. NULL: all is known already. */
+    void (*finish)(void *state, bool forces);
     /* Called between steps. `emit` adds at most `most` particles of a layer: particles in the box and not
        next to present particles. `drain` removes particles in a region. Both return the number of
        particles. */

@@ -65,7 +65,8 @@ static inline void substep_whole(const Substep *step, void (*method)(const Subst
             (*term)->end(step);
 }
 
-/* The kick of a step, then the effects of finger, emitters and floating bodies. */
+/* The kick of a step, then the effects of finger, emitters and floating bodies. A method that leaps moves
+   bodies no more in the step, and forces on bodies come at the step's end. */
 static inline void substep_kick(const Substep *step)
 {
     step->backend->kick(step->state, step->gravity, (float)step->dt);
@@ -73,10 +74,11 @@ static inline void substep_kick(const Substep *step)
         step->backend->touch(step->state, &step->finger);
     if (step->guide_count > 0)
         *step->driven += step->backend->guide(step->state, step->guides, step->guide_count);
-    if (step->bodies && step->backend->forces_ready)
+    if (!step->bodies || step->constants->method->leaps)
+        return;
+    if (step->backend->forces_ready)
         step->backend->forces_ready(step->state);
-    if (step->bodies)
-        bodies_kick(step->bodies);
+    bodies_kick(step->bodies);
 }
 
 /* The loop of an iterating solver: passes until the residual is small enough. */

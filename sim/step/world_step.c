@@ -120,8 +120,8 @@ static const double PARTED = 0.05;
 
 static void end_of_bodies(World *world)
 {
-    if (world->backend->forces_ready)
-        world->backend->forces_ready(world->state);
+    if (world->method->leaps)
+        bodies_kick(world->bodies);
     bodies_end(world->bodies);
     if (bodies_shift(world->bodies) > PARTED * world->def.spacing)
         energy_restart(world);
@@ -162,6 +162,8 @@ bool world_substep(World *world, StageClock *clock, Error *error)
     substep_whole(&step, world->method->substep);
     if (world->backend->leave)
         world->backend->leave(world->state);
+    if (world->backend->finish)
+        world->backend->finish(world->state, world->bodies != NULL);
     if (world->bodies)
         end_of_bodies(world);
     tell_forces(world, &step);

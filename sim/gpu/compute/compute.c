@@ -217,6 +217,7 @@ const Backend backend_compute = {
     .read = compute_read,
     .enable_forces = compute_enable_forces,
     .forces_ready = compute_forces_ready,
+    .finish = compute_finish,
     .gauge = compute_gauge,
     .gauged = compute_gauged,
     .energy = compute_energy,

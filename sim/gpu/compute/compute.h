@@ -143,6 +143,7 @@ typedef struct Compute {
     unsigned acceleration;                /* vec4 */
     Mailbox watch;                        /* WatchBlock */
     bool watch_due;                       /* kicks were noted and not sent */
+    bool watch_here;                      /* sent before a copy that was waited for */
     float longest;                        /* longest dt of the kicks since the watch was read, s */
     Mailbox solve;                        /* SolveBlock; none if no pass iterates */
     Mailbox parts;                        /* ExcessPart per group: iterate.c; none if no pass iterates */
@@ -217,6 +218,11 @@ void compute_add_solid_forces(Compute *compute, const Pass *pass, float dt);
 void compute_forces_mark(Compute *compute);
 void compute_forces_back(Compute *compute);
 
+/* compute_forces_send: sends the sums of forces; false without a request. compute_forces_take: adds sums that
+   have come. */
+bool compute_forces_send(Compute *compute);
+void compute_forces_take(Compute *compute, const void *sums);
+
 /* Creates missing buffers of iterating solvers. Returns false if memory is short. */
 bool compute_iterate_fit(Compute *compute);
 
@@ -242,6 +248,9 @@ bool compute_no_memory(const Compute *compute, Error *error);
 
 /* Call after a kick of dt, s. */
 void compute_watch_note(Compute *compute, float dt);
+
+/* Sends the findings of the kicks so far. */
+void compute_watch_send(Compute *compute);
 
 /* Restarts the watch, with `guarded` counts before. */
 void compute_watch_reset(Compute *compute, size_t guarded);
@@ -324,6 +333,7 @@ bool compute_mark(void *state, Error *error);
 void compute_back(void *state, size_t count, size_t guarded);
 bool compute_enable_forces(void *state, struct Forces *to, Error *error);
 bool compute_forces_ready(void *state);
+void compute_finish(void *state, bool forces);
 void compute_share(void *state, unsigned attributes, struct ParticleBuffers *out);
 void compute_sums(void *state, WorldSums *sums);
 bool compute_read(void *state, const ParticleArrays *out);

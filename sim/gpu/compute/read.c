@@ -11,8 +11,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-static void compute_watch_send(Compute *compute);
-
 bool compute_read(void *state, const ParticleArrays *out)
 {
     const Compute *c = state;
@@ -234,11 +232,12 @@ void compute_watch_note(Compute *c, float dt)
     c->watch_due = true;
 }
 
-static void compute_watch_send(Compute *c)
+void compute_watch_send(Compute *c)
 {
-    if (c->watch_due)
-        mailbox_send(&c->watch);
-    c->watch_due = false;
+    if (!c->watch_due)
+        return;
+    mailbox_send(&c->watch);
+    c->watch_due = c->watch_here = false;
 }
 
 StepWatch compute_watch(void *state)
@@ -247,7 +246,9 @@ StepWatch compute_watch(void *state)
     compute_watch_send(c);
     if (!c->watch.fence)
         return (StepWatch){.bounded = true};
-    const WatchBlock *watched = mailbox_wait(&c->watch);
+    const WatchBlock *watched = c->watch_here ? mailbox_look(&c->watch) : NULL;
+    if (!watched)
+        watched = mailbox_wait(&c->watch);
     if (!watched)
         return (StepWatch){.bounded = false};
     const bool leaps = c->constants->method->leaps;

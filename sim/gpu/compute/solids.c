@@ -342,20 +342,34 @@ static void add_sum(const Compute *c, const ForceSum *sum, Push *to)
     push_add(to, 1, &push);
 }
 
-bool compute_forces_ready(void *state)
+bool compute_forces_send(Compute *c)
 {
-    Compute *c = state;
     ComputeForces *forces = &c->forces;
     if (!forces->to)
-        return true;
+        return false;
     BIND(c, [FORCES_BUFFER] = forces->buffer, [FORCES_RESTS_BUFFER] = c->boundary.rest,
          [FORCE_SUMS_BUFFER] = forces->sums.buffer);
     compute_run(c, COMPUTE_FORCES_SUM, (size_t)(1 + c->constants->solid_count) * COMPUTE_GROUP);
     mailbox_send(&forces->sums);
     forces->to->seconds += forces->seconds;
     forces_clear(forces);
-    const ForceSum *sum = mailbox_wait(&forces->sums);
+    return true;
+}
+
+void compute_forces_take(Compute *c, const void *sums)
+{
+    const ForceSum *sum = sums;
+    Forces *to = c->forces.to;
     for (int k = 0; sum && k <= c->constants->solid_count; k++)
-        add_sum(c, &sum[k], k > 0 ? &forces->to->solid[k - 1] : &forces->to->box);
-    return sum != NULL;
+        add_sum(c, &sum[k], k > 0 ? &to->solid[k - 1] : &to->box);
+}
+
+bool compute_forces_ready(void *state)
+{
+    Compute *c = state;
+    if (!compute_forces_send(c))
+        return true;
+    const void *sums = mailbox_wait(&c->forces.sums);
+    compute_forces_take(c, sums);
+    return sums != NULL;
 }

@@ -224,3 +224,16 @@ void compute_iterate(void *state, const Iteration *iteration, const PassInput *i
                              .most = (double)found->left_most,
                              .tolerance = iteration->tolerance};
 }
+
+/* All that a step sends goes off before a single wait. The last copy comes last. */
+void compute_finish(void *state, bool forces)
+{
+    Compute *c = state;
+    if (!forces)
+        return;
+    compute_watch_send(c);
+    if (!compute_forces_send(c))
+        return;
+    compute_forces_take(c, mailbox_wait(&c->forces.sums));
+    c->watch_here = true;
+}
