@@ -57,11 +57,12 @@
 #define FORCE_SUMS_BUFFER   6
 
 /* Emitters, drains; shown values, plotted values */
-#define LAYER_BUFFER  5
-#define MARKS_BUFFER  6
-#define VALUES_BUFFER 5
-#define PARTS_BUFFER  5
-#define SOLVE_BUFFER  6
+#define FLOW_COUNTS_BUFFER 2
+#define LAYER_BUFFER       5
+#define MARKS_BUFFER       6
+#define VALUES_BUFFER      5
+#define PARTS_BUFFER       5
+#define SOLVE_BUFFER       6
 
 /* Locations of uniforms of single passes */
 #define PASS_DT_AT         0 /* s */
@@ -71,6 +72,7 @@
 #define FINGER_AT          0 /* xyz: the point, m; w: 1 / radius^2 */
 #define FINGER_VELOCITY_AT 1 /* xyz: of the point, m/s; w: grip */
 #define FINGER_KICK_AT     2
+#define FLOW_AT            0 /* number of a layer or drain, index of the marks' total, 1: a drain */
 #define COLUMN_AT          0 /* first number of a scratch column, and first of its parts */
 
 /* Limits of the scene, in C FLUIDS_MAX ... */
@@ -78,5 +80,7 @@
 #define SOLIDS_MOST 16
 #define DRAINS_MOST 8
 #define GUIDES_MOST 33
+
+#define FLOWS_MOST 256 /* layers and drains of a step */
 
 #endif

@@ -29,11 +29,10 @@ UNIFORM_BLOCK(FlowBlock, FLOW_BLOCK)
 {
     int drain_total;
     int guide_total;
+    uint gridded;         /* particles in the grid, copied on the GPU */
     uint candidate_total; /* points of a layer */
-    uint gridded;         /* particles in the grid */
     uint layer_fluid;
-    uint first_id;
-    uint layer_most; /* most points of the layer to add */
+    uint particle_most; /* room for particles */
     vec3 layer_velocity;
     Region drains[DRAINS_MOST];
     Course guides[GUIDES_MOST];

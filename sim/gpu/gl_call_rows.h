@@ -153,6 +153,8 @@ GL_CALL(CALL_OTHER, void, glProgramUniform2i, (GLuint a, GLint b, GLint c, GLint
 GL_CALL(CALL_OTHER, void, glProgramUniform3f, (GLuint a, GLint b, GLfloat c, GLfloat d, GLfloat e),
         (a, b, c, d, e))
 GL_CALL(CALL_OTHER, void, glProgramUniform3fv, (GLuint a, GLint b, GLsizei c, const GLfloat *d), (a, b, c, d))
+GL_CALL(CALL_OTHER, void, glProgramUniform3ui, (GLuint a, GLint b, GLuint c, GLuint d, GLuint e),
+        (a, b, c, d, e))
 GL_CALL(CALL_OTHER, void, glProgramUniform4f, (GLuint a, GLint b, GLfloat c, GLfloat d, GLfloat e, GLfloat f),
         (a, b, c, d, e, f))
 GL_CALL(CALL_OTHER, void, glProgramUniform4fv, (GLuint a, GLint b, GLsizei c, const GLfloat *d), (a, b, c, d))

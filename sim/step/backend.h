@@ -169,6 +169,9 @@ typedef struct Excess {
     float greatest; /* at least 0 */
 } Excess;
 
+enum { FLOWS_MAX = 256 };
+#define FLOW_LATER SIZE_MAX
+
 typedef struct Backend {
     const char *name, *help;
     const Key *keys; /* of the backend's settings, ended by a row without a path; NULL: none */
@@ -240,11 +243,12 @@ typedef struct Backend {
        are always up to date. `mark` and `back` include these sums. */
     bool (*forces_ready)(void *state);
     /* Call after each step: brings what the next step or the caller needs of this step, with a single wait at
-       most. `forces`: as forces_ready. NULL: all is known already. */
-    void (*finish)(void *state, bool forces);
+       most. `forces`: as forces_ready. `flowed`: particles of each emit and drain that answered FLOW_LATER,
+       in order, with room for FLOWS_MAX. NULL: all is known already. */
+    void (*finish)(void *state, bool forces, size_t *flowed);
     /* Called between steps. `emit` adds at most `most` particles of a layer: particles in the box and not
        next to present particles. `drain` removes particles in a region. Both return the number of
-       particles. */
+       particles, or FLOW_LATER: `finish` brings the number. In a step at most FLOWS_MAX calls. */
     size_t (*emit)(void *state, const EmitLayer *layer, size_t most);
     size_t (*drain)(void *state, const Fill *regions, int count);
     /* `save` copies the particles into columns of the same count. `load` takes `count` particles, at most

@@ -16,6 +16,13 @@ const char *energy_unwatched(const WorldDef *def);
 
 /* Internals of a world, for the files of sim/step. */
 
+/* A layer of particles, or a drain, whose number of particles is not known yet. */
+typedef struct Flow {
+    bool drains;
+    unsigned short *blocked; /* the emitter's counter; NULL: a drain or poured fluid */
+    float born;              /* s */
+} Flow;
+
 struct World {
     WorldDef def; /* without `initial` */
     Constants constants;
@@ -30,6 +37,8 @@ struct World {
     float *layer;                    /* scratch for an emitter's layer */
     size_t layer_capacity;           /* size of the scratch, in particles */
     unsigned short blocked[EMITTERS_MAX]; /* by gate: consecutive layers of an emitter without room */
+    Flow flows[FLOWS_MAX];                /* of the step, in order */
+    int flow_count;
     uint64_t step;
     uint64_t since_step; /* first step with the present step size */
     double since_time;   /* time of that step, s */
@@ -68,6 +77,9 @@ bool world_pours(const World *world, Emit *emit, int *fluid);
 /* Adds fluid from emitters and finger for the coming step, and removes fluid in drains. Returns false, with
    nothing done, if memory is short. */
 bool world_flow(World *world, Error *error);
+
+/* Call after the passes of a step: adds the numbers of the step's flows. */
+void world_finish(World *world);
 
 /* True if the backend has ids for `born` particles since the start; false with the reason. */
 bool world_names(const World *world, uint64_t born, Error *error);

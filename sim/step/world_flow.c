@@ -5,7 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BIRTHS_FEW = 256 }; /* cheaper to keep than to check: the check reads ids back from a GPU */
+/* Cheaper to keep than to check: the check reads ids back from a GPU. A birth has 16 bytes in each state. */
+static size_t births_few(const World *world)
+{
+    return world->backend->gpu ? 16384 : 256;
+}
 
 /* Direction of gravity in the box; without gravity, down. */
 static void falls(const World *world, double direction[3])
@@ -51,7 +55,45 @@ static void look_for_room(unsigned short *blocked, size_t came, bool full)
         ++*blocked;
 }
 
-/* `barred`: the emitter's counter; NULL for poured fluid. */
+static void layer_came(World *world, const Flow *flow, size_t number)
+{
+    if (flow->blocked)
+        look_for_room(flow->blocked, number, world->count == world->capacity);
+    if (number > 0)
+        births_add(&world->births, world->initial + world->emitted, flow->born);
+    world->emitted += number;
+    world->count += number;
+}
+
+static void drained(World *world, size_t number)
+{
+    world->drained += number;
+    world->count -= number;
+}
+
+void world_finish(World *world)
+{
+    size_t flowed[FLOWS_MAX];
+    if (!world->backend->finish)
+        return;
+    world->backend->finish(world->state, world->bodies != NULL, flowed);
+    for (int k = 0; k < world->flow_count; k++)
+        if (world->flows[k].drains)
+            drained(world, flowed[k]);
+        else
+            layer_came(world, &world->flows[k], flowed[k]);
+    world->flow_count = 0;
+}
+
+/* Flow number FLOWS_MAX of a step waits for the numbers. */
+static void flow_later(World *world, Flow flow)
+{
+    world->flows[world->flow_count++] = flow;
+    if (world->flow_count == FLOWS_MAX)
+        world_finish(world);
+}
+
+/* `blocked`: the emitter's counter; NULL for poured fluid. */
 static void let_in(World *world, int fluid, const Emit *emit, unsigned short *blocked, double begin,
                    double end)
 {
@@ -66,14 +108,15 @@ static void let_in(World *world, int fluid, const Emit *emit, unsigned short *bl
         emit_place(emit, def->dimensions, def->spacing, k, end, &layer);
         for (size_t i = 0; i < layer.count; i++)
             periodic_wrap(&world->constants.periodic, layer.position + 3 * i, NULL);
+        const Flow flow = {.blocked = layer.count > 0 ? blocked : NULL,
+                           .born = (float)emit_time(emit, def->spacing, k)};
         const size_t more = world->backend->emit(world->state, &layer, world->capacity - world->count);
-        if (blocked && layer.count > 0)
-            look_for_room(blocked, more, world->count == world->capacity);
+        if (more == FLOW_LATER) {
+            flow_later(world, flow);
+            continue;
+        }
         energy_add_emitted(world, &layer, more);
-        if (more > 0)
-            births_add(&world->births, layer.first_id, (float)emit_time(emit, def->spacing, k));
-        world->emitted += more;
-        world->count += more;
+        layer_came(world, &flow, more);
     }
 }
 
@@ -161,8 +204,10 @@ bool world_flow(World *world, Error *error)
     const int count = open_drains(world, open);
     if (count > 0) {
         const size_t less = world->backend->drain(world->state, open, count);
-        world->drained += less;
-        world->count -= less;
+        if (less == FLOW_LATER)
+            flow_later(world, (Flow){.drains = true});
+        else
+            drained(world, less);
     }
     return true;
 }
@@ -171,11 +216,12 @@ void world_thin_births(World *world)
 {
     Births *births = &world->births;
     const bool all_here = !world->backend->held; /* a rank would drop births of foreign particles */
-    ParticleId *id = all_here && births->count > BIRTHS_FEW ? malloc((world->count + 1) * sizeof *id) : NULL;
+    ParticleId *id =
+        all_here && births->count > births_few(world) ? malloc((world->count + 1) * sizeof *id) : NULL;
     if (id && world_read(world, &(ParticleArrays){.whole_id = id}))
         births_keep(births, id, world->count);
     free(id);
-    world->births_most = 2 * births->count > BIRTHS_FEW ? 2 * births->count : BIRTHS_FEW;
+    world->births_most = 2 * births->count > births_few(world) ? 2 * births->count : births_few(world);
 }
 
 /* Plotted quantities of a running world: asked for first, answered when ready. Also forces on box and

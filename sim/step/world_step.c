@@ -162,8 +162,7 @@ bool world_substep(World *world, StageClock *clock, Error *error)
     substep_whole(&step, world->method->substep);
     if (world->backend->leave)
         world->backend->leave(world->state);
-    if (world->backend->finish)
-        world->backend->finish(world->state, world->bodies != NULL);
+    world_finish(world);
     if (world->bodies)
         end_of_bodies(world);
     tell_forces(world, &step);

@@ -70,8 +70,8 @@
         BLOCK("sim/exact_shapes_block.h", ExactShapesBlock, SHAPE(exact_shapes[0].half_edges),               \
               SHAPE(exact_shapes[0].radius), SHAPE(exact_shapes[0].thickness), SHAPE(exact_shapes[0].reach), \
               SHAPE(exact_shapes[15].reach)),                                                                \
-        BLOCK("sim/flow_block.h", FlowBlock, FLOW(drain_total), FLOW(guide_total), FLOW(candidate_total),    \
-              FLOW(gridded), FLOW(layer_fluid), FLOW(first_id), FLOW(layer_most), FLOW(layer_velocity),      \
+        BLOCK("sim/flow_block.h", FlowBlock, FLOW(drain_total), FLOW(guide_total), FLOW(gridded),            \
+              FLOW(candidate_total), FLOW(layer_fluid), FLOW(particle_most), FLOW(layer_velocity),           \
               FLOW(drains[0].low), FLOW(drains[0].ball), FLOW(drains[0].high), FLOW(drains[0].radius2),      \
               FLOW(drains[7].radius2), FLOW(guides[0].centre), FLOW(guides[0].radius),                       \
               FLOW(guides[0].direction), FLOW(guides[0].depth), FLOW(guides[0].velocity),                    \

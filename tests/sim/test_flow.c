@@ -572,7 +572,7 @@ static void births_of_the_drained_are_forgotten(void **state)
     assert_true(world_save(world, &saved, &error));
     const WorldInfo info = info_of(world);
     assert_true(info.emitted > 790 && info.count < 100);
-    assert_true(saved.births.count < 300);
+    assert_true(saved.births.count < (fixture_on_cpu() ? 300 : 1000)); /* a GPU forgets after 16,384 */
     size_t count, known = 0;
     float *born = births_of(world, &count);
     for (size_t i = 0; i < count; i++) {

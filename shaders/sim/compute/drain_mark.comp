@@ -2,7 +2,7 @@
 #include "sim/constants.glsl"
 #include "shaders/sim/flow_block.h"
 layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; };
-layout(std430, binding = MARKS_BUFFER) writeonly buffer Marks { uint mark[]; }; // plus an extra entry, 0, for the total
+layout(std430, binding = MARKS_BUFFER) writeonly buffer Marks { uint mark[]; }; // the last is 0, for the total
 
 bool drains_away(vec3 x)
 {
@@ -19,6 +19,6 @@ bool drains_away(vec3 x)
 void main()
 {
     uint i = invocation();
-    if (i <= particles_there())
+    if (i < uint(mark.length()))
         mark[i] = i < particles_there() && !drains_away(position[i].xyz) ? 1u : 0u;
 }

@@ -89,6 +89,14 @@ void compute_set_count(Compute *compute, size_t count)
                          &number);
 }
 
+void compute_copy_count(const Compute *compute, unsigned buffer, size_t offset, bool out)
+{
+    const GLintptr own = offsetof(ConstantBlock, particle_total), other = (GLintptr)offset;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glCopyNamedBufferSubData(out ? compute->constant_block : buffer, out ? buffer : compute->constant_block,
+                             out ? own : other, out ? other : own, sizeof(int));
+}
+
 static void copy3(const float from[3], float to[3])
 {
     memcpy(to, from, 3 * sizeof *to);

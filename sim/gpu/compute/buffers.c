@@ -121,10 +121,10 @@ static GLintptr place_of(const Compute *c, int k, size_t i)
     return (GLintptr)(4 * ((size_t)k * c->capacity + i));
 }
 
-static void clear_one(const Compute *c, int k, size_t first, size_t count)
+static void clear_one(const Compute *c, int k)
 {
-    if (count > 0)
-        glClearNamedBufferSubData(c->now.own, GL_R32F, place_of(c, k, first), (GLsizeiptr)(4 * count), GL_RED,
+    if (c->count > 0)
+        glClearNamedBufferSubData(c->now.own, GL_R32F, place_of(c, k, 0), (GLsizeiptr)(4 * c->count), GL_RED,
                                   GL_FLOAT, NULL);
 }
 
@@ -136,7 +136,7 @@ static void compute_own_upload(const Compute *c, const ParticleColumns *from)
             glNamedBufferSubData(c->now.own, place_of(c, k, 0), (GLsizeiptr)(4 * c->count),
                                  from->own[c->own.place[k]]);
         else
-            clear_one(c, k, 0, c->count);
+            clear_one(c, k);
 }
 
 static void compute_own_download(const Compute *c, const ParticleColumns *to)
@@ -158,12 +158,6 @@ void compute_own_copy_one(const Compute *c, int k, unsigned to)
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     if (c->count > 0)
         glCopyNamedBufferSubData(c->now.own, to, place_of(c, k, 0), 0, (GLsizeiptr)(4 * c->count));
-}
-
-void compute_own_clear(const Compute *c, size_t first, size_t count)
-{
-    for (int k = 0; k < c->own.count; k++)
-        clear_one(c, k, first, count);
 }
 
 void compute_own_move(Compute *c, unsigned order)

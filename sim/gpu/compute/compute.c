@@ -55,11 +55,11 @@ static bool buffers_create(Compute *c, Error *error)
         level = (level + COMPUTE_SCAN_BLOCK - 1) / COMPUTE_SCAN_BLOCK;
         c->totals[k] = compute_buffer(c, "scan totals", 4 * level);
     }
-    compute_flow_create(c);
+    const bool flows = compute_flow_create(c);
     const bool bounded = compute_boundary_create(c);
     if (!compute_meshes_create(c, error))
         return false;
-    return (bounded && !c->full && compute_iterate_fit(c) &&
+    return (flows && bounded && !c->full && compute_iterate_fit(c) &&
             mailbox_create(&c->watch, "watch", sizeof(WatchBlock))) ||
            compute_no_memory(c, error);
 }

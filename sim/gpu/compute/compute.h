@@ -70,6 +70,7 @@ typedef struct ComputeScratch {
     X(GUIDE, "compute/guide")                                                                                \
     X(EMIT_MARK, "compute/emit_mark")                                                                        \
     X(EMIT_ADD, "compute/emit_add")                                                                          \
+    X(FLOW_COUNT, "compute/flow_count")                                                                      \
     X(DRAIN_MARK, "compute/drain_mark")                                                                      \
     X(DRAIN_GATHER, "compute/drain_gather")                                                                  \
     X(OWN_MOVE, "compute/own_move")                                                                          \
@@ -103,6 +104,8 @@ typedef struct ComputeMeshes {
 typedef struct ComputeFlow {
     unsigned block;        /* uniforms */
     unsigned layer, marks; /* x y z of up to COMPUTE_LAYER candidates; uint each, plus an extra entry */
+    Mailbox counts;        /* FlowCounts */
+    int calls;             /* layers and drains since the last finish */
 } ComputeFlow;
 
 /* Forces on box and solids; no buffers before a request. */
@@ -123,8 +126,8 @@ typedef struct ComputeBound {
 
 typedef struct Compute {
     const Constants *constants;
-    size_t count, capacity; /* particles; room for them */
-    size_t gridded;         /* by `grid`: particles in the grid */
+    size_t count,
+        capacity; /* particles, at most so many until the end of a step with emitters; room for them */
     ComputeBoundary boundary;
     ComputeMeshes meshes;
     ComputeFlow flow;
@@ -223,6 +226,11 @@ void compute_forces_back(Compute *compute);
 bool compute_forces_send(Compute *compute);
 void compute_forces_take(Compute *compute, const void *sums);
 
+/* The same for layers and drains: writes the particles of each, at least FLOWS_MOST numbers, and sets the
+   number of particles. */
+bool compute_flow_send(Compute *compute);
+void compute_flow_take(Compute *compute, const void *counts, size_t *flowed);
+
 /* Creates missing buffers of iterating solvers. Returns false if memory is short. */
 bool compute_iterate_fit(Compute *compute);
 
@@ -232,14 +240,12 @@ void compute_list_defines(const Compute *compute, char out[COMPUTE_DEFINES_MAX])
 
 /* Columns of the method: nothing to do for a method without. _defines: lines for the shaders after
    compute_defines. _upload, _download: from and to plain arrays, NULL arrays skipped. _copy: to another
-   buffer. _clear: 0 for `count` particles. _move, _gather: from `now` to `spare`, reordered or without
-   drained particles. */
+   buffer. _move, _gather: from `now` to `spare`, reordered or without drained particles. */
 ComputeOwn compute_own_of(const Constants *constants);
 bool compute_own_fit(Compute *compute); /* room for columns added later; false if memory is short */
 void compute_own_defines(const Compute *compute, char out[COMPUTE_DEFINES_MAX]);
 void compute_own_copy_one(const Compute *compute, int k, unsigned to); /* the k-th component, to a buffer's
                                                                           begin */
-void compute_own_clear(const Compute *compute, size_t first, size_t count);
 void compute_own_move(Compute *compute, unsigned order);
 void compute_own_gather(Compute *compute, unsigned marks);
 
@@ -276,8 +282,10 @@ void compute_bind(Compute *compute, const unsigned *buffers, int count);
 void compute_enter(void *state);
 void compute_leave(void *state);
 
-/* Sets the number of particles. */
+/* Sets the number of particles. compute_copy_count: copies the number on the GPU to another buffer
+   (`out`), or from there. */
 void compute_set_count(Compute *compute, size_t count);
+void compute_copy_count(const Compute *compute, unsigned buffer, size_t offset, bool out);
 
 /* Swaps `now` and `spare`. */
 void compute_swap(Compute *compute);
@@ -314,7 +322,8 @@ void compute_boundary_move(Compute *compute, const SolidStep *steps);
 void compute_boundary_grid(Compute *compute); /* sorts boundary particles after a move */
 void compute_boundary_fill(Compute *compute);
 
-void compute_flow_create(Compute *compute);
+bool compute_flow_create(Compute *compute);  /* false if memory is short */
+void compute_flow_gridded(Compute *compute); /* all particles have a place in the grid */
 void compute_flow_destroy(Compute *compute);
 
 void compute_pose(void *state, const SolidPose *pose);
@@ -333,7 +342,7 @@ bool compute_mark(void *state, Error *error);
 void compute_back(void *state, size_t count, size_t guarded);
 bool compute_enable_forces(void *state, struct Forces *to, Error *error);
 bool compute_forces_ready(void *state);
-void compute_finish(void *state, bool forces);
+void compute_finish(void *state, bool forces, size_t *flowed);
 void compute_share(void *state, unsigned attributes, struct ParticleBuffers *out);
 void compute_sums(void *state, WorldSums *sums);
 bool compute_read(void *state, const ParticleArrays *out);

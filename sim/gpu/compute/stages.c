@@ -38,7 +38,7 @@ void compute_grid(void *state)
     compute_run(c, COMPUTE_MOVE, c->count);
     compute_own_move(c, order);
     compute_swap(c);
-    c->gridded = c->count;
+    compute_flow_gridded(c);
     compute_boundary_grid(c);
 }
 
@@ -225,15 +225,18 @@ void compute_iterate(void *state, const Iteration *iteration, const PassInput *i
                              .tolerance = iteration->tolerance};
 }
 
-/* All that a step sends goes off before a single wait. The last copy comes last. */
-void compute_finish(void *state, bool forces)
+/* All copies go off before a single wait, for the last. */
+void compute_finish(void *state, bool forces, size_t *flowed)
 {
     Compute *c = state;
-    if (!forces)
+    if (!forces && c->flow.calls == 0)
         return;
     compute_watch_send(c);
-    if (!compute_forces_send(c))
-        return;
-    compute_forces_take(c, mailbox_wait(&c->forces.sums));
+    const bool flows = compute_flow_send(c), sums = forces && compute_forces_send(c);
+    const void *found = mailbox_wait(sums ? &c->forces.sums : &c->flow.counts);
     c->watch_here = true;
+    if (sums)
+        compute_forces_take(c, found);
+    if (flows)
+        compute_flow_take(c, sums ? mailbox_look(&c->flow.counts) : found, flowed);
 }

@@ -90,6 +90,8 @@ bool compute_pass_named(const Constants *s, ComputePass pass)
     case COMPUTE_EMIT_MARK:
     case COMPUTE_EMIT_ADD:
         return s->emits;
+    case COMPUTE_FLOW_COUNT:
+        return s->emits || s->drains;
     case COMPUTE_DRAIN_MARK:
     case COMPUTE_DRAIN_GATHER:
         return s->drains;
