@@ -26,10 +26,11 @@ STORAGE_BLOCK(SolveBlock, SOLVE_BUFFER)
     uint iterations_few;  /* at least so many iterations run */
     uint iterations_most; /* limit of iterations */
     uint ended;           /* 1: ended */
-    uint scaled;          /* 1: the residual is in units of a column's mean */
-    float go;             /* conjugate gradients: length along the direction */
-    float turn;           /* share of the last direction in the new direction */
-    float power;          /* product of residual and direction */
+    uint particles;
+    uint scaled; /* 1: the residual is in units of a column's mean */
+    float go;    /* conjugate gradients: length along the direction */
+    float turn;  /* share of the last direction in the new direction */
+    float power; /* product of residual and direction */
 }
 BLOCK_END(SolveBlock);
 

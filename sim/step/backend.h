@@ -160,6 +160,7 @@ void particles_sums(const ParticleColumns *p, const Constants *constants, size_t
 
 struct BackendMicro;    /* sim/step/method.h */
 struct Iteration;       /* sim/step/substep.h */
+struct IterationFound;  /* sim/step/substep.h */
 struct Forces;          /* include/slosh/world.h */
 struct ParticleBuffers; /* sim/gpu/particle_buffers.h */
 
@@ -202,6 +203,9 @@ typedef struct Backend {
     /* Called around the passes of a step. NULL: nothing to do. */
     void (*enter)(void *state);
     void (*leave)(void *state);
+    /* Call before a step that can start again from `mark`: the backend may guess the ends of solvers, and
+       `finish` checks. NULL: no guesses. */
+    void (*guess)(void *state);
     /* Free flight over `step`, then the last guard of walls and solids; solids move to their end poses. */
     void (*drift)(void *state, const BoxStep *step);
     /* Sorts the particles by cell; within a cell by id, on compute only if the def is reproducible. */
@@ -213,9 +217,11 @@ typedef struct Backend {
     Excess (*excess)(void *state, const ColumnDef *column);
     /* Sum of such a column, in the same order. NULL: a backend with `iterate` sums by itself. */
     double (*sum)(void *state, const ColumnDef *column);
-    /* The loop of substep_iterate on the device. `solve`: on entry the solver's result of the last step, on
-       return of the current step. NULL: substep_iterate asks for the excess after each iteration. */
-    void (*iterate)(void *state, const struct Iteration *iteration, const PassInput *input, StepSolve *solve);
+    /* The iterations of substep_iterate on the device. `solve`: the solver's report of the last step. Returns
+       false after a guess: `finish` writes the report. NULL: substep_iterate asks for the
+       excess after each iteration. */
+    bool (*iterate)(void *state, const struct Iteration *iteration, const PassInput *input, StepSolve *solve,
+                    struct IterationFound *found);
     /* v += (acceleration + gravity) dt. */
     void (*kick)(void *state, const float gravity[3], float dt);
     /* Findings of the kicks since the last call or `load`; waits for the kicks. */
@@ -242,10 +248,11 @@ typedef struct Backend {
     /* Brings sums of `enable_forces` from the device; waits. Returns false if memory is short. NULL: the sums
        are always up to date. `mark` and `back` include these sums. */
     bool (*forces_ready)(void *state);
-    /* Call after each step: brings what the next step or the caller needs of this step, with a single wait at
-       most. `forces`: as forces_ready. `flowed`: particles of each emit and drain that answered FLOW_LATER,
-       in order, with room for FLOWS_MAX. NULL: all is known already. */
-    void (*finish)(void *state, bool forces, size_t *flowed);
+    /* Call after each step: brings forces, flows and reports of solvers from the device, with a single wait
+       at most. `forces`: as forces_ready. `flowed`: number of particles of each FLOW_LATER, in order, with
+       room for FLOWS_MAX. Returns false after a wrong guess: the step must start again. NULL: all is known
+       already. */
+    bool (*finish)(void *state, bool forces, size_t *flowed);
     /* Called between steps. `emit` adds at most `most` particles of a layer: particles in the box and not
        next to present particles. `drain` removes particles in a region. Both return the number of
        particles, or FLOW_LATER: `finish` brings the number. In a step at most FLOWS_MAX calls. */

@@ -21,11 +21,11 @@ static void conjugate(const Substep *step, const Iteration *iteration, Conjugate
     now->power = power;
 }
 
-static void measure(const Substep *step, const Iteration *iteration, double scale, StepSolve *solve)
+static void measure(const Substep *step, const Iteration *iteration, double scale, IterationFound *found)
 {
     const Excess left = step->backend->excess(step->state, iteration->residual);
-    solve->mean = scale * left.mean;
-    solve->most = scale * left.greatest;
+    found->mean = scale * left.mean;
+    found->most = scale * left.greatest;
 }
 
 /* 1 / (unit of the residual); 1 if the mean is 0, with residual 0. */
@@ -36,44 +36,80 @@ static double scale_of(const Substep *step, const Iteration *iteration)
 }
 
 /* Same rule as decide.comp in shaders/sim/compute. */
-static bool goes_on(const Iteration *iteration, const StepSolve *solve)
+static bool goes_on(const Iteration *iteration, const IterationFound *found)
 {
-    return solve->iterations < iteration->most &&
-           (!(solve->mean <= iteration->tolerance) ||
-            (solve->most > iteration->worst && solve->iterations < iteration->few));
+    return found->iterations < iteration->most &&
+           (!(found->mean <= iteration->tolerance) ||
+            (found->most > iteration->worst && found->iterations < iteration->few));
+}
+
+static Excess excess_of(const Substep *step, const ColumnDef *column)
+{
+    return column ? step->backend->excess(step->state, column) : (Excess){0};
 }
 
 /* Iterates with a query of the excess after each iteration. */
-static void iterate_here(const Substep *step, const Iteration *iteration, StepSolve *solve, double dt)
+static void iterate_here(const Substep *step, const Iteration *iteration, double dt, IterationFound *found)
 {
     const double scale = scale_of(step, iteration);
     PassInput input = substep_input(step, dt);
     Conjugate now = {0};
-    *solve = (StepSolve){.tolerance = iteration->tolerance, .mean = INFINITY};
+    *found = (IterationFound){.mean = INFINITY};
     if (iteration->begun)
-        measure(step, iteration, scale, solve);
-    while (goes_on(iteration, solve)) {
+        measure(step, iteration, scale, found);
+    while (goes_on(iteration, found)) {
         conjugate(step, iteration, &now);
         input.go = (float)now.go;
         input.turn = (float)now.turn;
         for (int k = 0; iteration->passes[k]; k++)
             step->backend->run(step->state, iteration->passes[k], &input);
-        solve->iterations++;
-        measure(step, iteration, scale, solve);
+        found->iterations++;
+        measure(step, iteration, scale, found);
     }
-    for (int k = 0; k < ITERATION_ASKED && iteration->asked[k].column; k++)
-        *iteration->asked[k].to = step->backend->excess(step->state, iteration->asked[k].column);
+    found->way = excess_of(step, iteration->way);
+    found->left = excess_of(step, iteration->left);
+}
+
+bool iteration_strays(const Iteration *iteration, const IterationFound *found)
+{
+    return iteration->way && !(found->way.mean <= iteration->way_most) && found->iterations < iteration->most;
+}
+
+void iteration_report(const Iteration *iteration, const IterationFound *found, StepSolve *solve)
+{
+    const double unit = iteration->unit > 0 ? iteration->unit : 1, allowed = iteration->allowed;
+    *solve = (StepSolve){.iterations = found->iterations,
+                         .mean = found->mean / unit,
+                         .most = found->most / unit,
+                         .tolerance = fmax(allowed, 0)};
+    solve->failed = allowed >= 0 && !(solve->mean <= STEP_SOLVE_STANDS * allowed);
+    if (!iteration->left || solve->failed)
+        return;
+    solve->mean = found->left.mean;
+    solve->most = found->left.greatest;
 }
 
 void substep_iterate(const Substep *step, const Iteration *iteration, int which, double dt)
 {
     const PassInput input = substep_input(step, dt);
     StepSolve *solve = &step->solves[which];
-    if (step->backend->iterate)
-        step->backend->iterate(step->state, iteration, &input, solve);
-    else
-        iterate_here(step, iteration, solve, dt);
-    solve->failed = !(solve->mean <= STEP_SOLVE_STANDS * solve->tolerance);
+    Iteration round = *iteration;
+    IterationFound found;
+    double done = 0;
+    for (int renewed = 0;; renewed++) {
+        if (!step->backend->iterate)
+            iterate_here(step, &round, dt, &found);
+        else if (!step->backend->iterate(step->state, &round, &input, solve, &found))
+            return;
+        done += found.iterations;
+        if (!iteration_strays(&round, &found) || renewed == iteration->renewals)
+            break;
+        round.most -= (int)found.iterations;
+        round.begun = true;
+        iteration->renew(step);
+    }
+    found.iterations = done;
+    iteration_report(iteration, &found, solve);
 }
 
 /* Class of a number of iterations; the last class takes all larger numbers. */

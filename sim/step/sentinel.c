@@ -38,31 +38,44 @@ void sentinel_lengthen_step(World *world)
     s->steps_since_trouble = 0;
 }
 
-static void restore(World *world)
+static void put_back(World *world)
 {
     const WorldNumbers *numbers = &world->good.numbers;
     world->forces = world->forces_before;
     world->step_forces = (Forces){0};
-    world->since_step = world->step;
-    world->since_time = numbers->since_time + (numbers->step - numbers->since_step) * numbers->stepping.dt;
     world->filter = numbers->filter;
     world->box = numbers->box;
-    if (finger_on(&numbers->finger) && finger_on(&world->finger)) /* the requested finger stays */
-        memcpy(world->finger.point, numbers->finger.point, sizeof world->finger.point);
-    if (world->energy.until > 0) /* 0: forgotten since then, by a change that stays after going back */
-        world->energy = numbers->energy;
     if (world->bodies)
         bodies_load(world->bodies, &numbers->bodies);
-    world->stepping.max_speed = numbers->stepping.max_speed;
-    world->stepping.max_acceleration = numbers->stepping.max_acceleration;
-    world->stepping.frame_left = -1;
-    world->stepping.steps_since_trouble = 0;
     if (world->backend->back)
         world->backend->back(world->state, world->good.count, (size_t)numbers->guarded);
     else
         world->backend->load(world->state, &world->good.particles, world->good.count,
                              (size_t)numbers->guarded);
     world_put_back(world, numbers, world->good.count);
+}
+
+static void restore(World *world)
+{
+    const WorldNumbers *numbers = &world->good.numbers;
+    world->since_step = world->step;
+    world->since_time = numbers->since_time + (numbers->step - numbers->since_step) * numbers->stepping.dt;
+    if (finger_on(&numbers->finger) && finger_on(&world->finger)) /* the requested finger stays */
+        memcpy(world->finger.point, numbers->finger.point, sizeof world->finger.point);
+    if (world->energy.until > 0) /* 0: forgotten since then, by a change that stays after going back */
+        world->energy = numbers->energy;
+    world->stepping.max_speed = numbers->stepping.max_speed;
+    world->stepping.max_acceleration = numbers->stepping.max_acceleration;
+    world->stepping.frame_left = -1;
+    world->stepping.steps_since_trouble = 0;
+    put_back(world);
+}
+
+void sentinel_again(World *world)
+{
+    world->finger = world->good.numbers.finger;
+    world->energy = world->good.numbers.energy;
+    put_back(world);
 }
 
 /* Advice on the solver in trouble or on the step. */

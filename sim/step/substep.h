@@ -84,8 +84,7 @@ static inline void substep_kick(const Substep *step)
 /* The loop of an iterating solver: passes until the residual is small enough. */
 
 /* Plain data, without calls of the method between passes: a backend with costly read-backs takes the same
-   decisions on the device (Backend.iterate). */
-enum { ITERATION_ASKED = 2 };
+   decisions on the device (Backend.iterate), and may report after the step (Backend.finish). */
 typedef struct Iteration {
     const Pass *passes[4];     /* of an iteration, ended by NULL; the last pass measures */
     const ColumnDef *residual; /* only positive values count */
@@ -95,12 +94,16 @@ typedef struct Iteration {
     int most;                  /* iterations */
     bool begun;                /* the residual is known before the first iteration: possibly no iteration
                                   runs */
-    /* Further columns for the caller, ended by NULL: their excess after the last iteration goes to `to`. A
-       separate query would make a GPU's step wait again. */
-    struct {
-        const ColumnDef *column;
-        Excess *to;
-    } asked[ITERATION_ASKED];
+    /* If the mean of column `way` is above `way_most` after the last iteration, `renew` runs and the
+       iterations go on, at most `renewals` times. NULL: never. */
+    const ColumnDef *way;
+    double way_most;
+    void (*renew)(const Substep *step);
+    int renewals;
+    /* The report: the residual over `unit` (0: 1), in trouble above STEP_SOLVE_STANDS times `allowed` (below
+       0: never); without trouble the excess of `left` instead, unless NULL. */
+    double unit, allowed;
+    const ColumnDef *left;
     const ColumnDef *scale; /* the residual is measured in units of this column's mean before the first
                                iteration; NULL: 1 */
     /* For conjugate gradients, whose passes read PassInput.go and .turn: each particle's part of (residual
@@ -108,9 +111,21 @@ typedef struct Iteration {
     const ColumnDef *power, *curvature;
 } Iteration;
 
-/* Runs the passes over `dt` (s), at least once unless `begun`, and writes the result to
-   step->solves[which]. */
+/* Results of the iterations. */
+typedef struct IterationFound {
+    double iterations, mean, most; /* residual */
+    Excess way, left;
+} IterationFound;
+
+/* Runs the passes over `dt` (s), at least once unless `begun`, and reports to step->solves[which], possibly
+   after the step. */
 void substep_iterate(const Substep *step, const Iteration *iteration, int which, double dt);
+
+/* True if `renew` is due after the iterations. */
+bool iteration_strays(const Iteration *iteration, const IterationFound *found);
+
+/* Writes the report of a solver that has ended. */
+void iteration_report(const Iteration *iteration, const IterationFound *found, StepSolve *solve);
 
 /* Statistics of solvers over many steps, in bounded memory. Zero-initialise. */
 enum { SOLVE_EXACT = 64, SOLVE_OCTAVE = 8, SOLVE_CLASSES = SOLVE_EXACT + 9 * SOLVE_OCTAVE };

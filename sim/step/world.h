@@ -16,7 +16,7 @@ const char *energy_unwatched(const WorldDef *def);
 
 /* Internals of a world, for the files of sim/step. */
 
-/* A layer of particles, or a drain, whose number of particles is not known yet. */
+/* A layer of particles, or a drain, with a number of particles not known yet. */
 typedef struct Flow {
     bool drains;
     unsigned short *blocked; /* the emitter's counter; NULL: a drain or poured fluid */
@@ -78,8 +78,9 @@ bool world_pours(const World *world, Emit *emit, int *fluid);
    nothing done, if memory is short. */
 bool world_flow(World *world, Error *error);
 
-/* Call after the passes of a step: adds the numbers of the step's flows. */
-void world_finish(World *world);
+/* Call after the passes of a step: adds the numbers of the step's flows. Returns false after a wrong guess:
+   the step must start again. */
+bool world_finish(World *world);
 
 /* True if the backend has ids for `born` particles since the start; false with the reason. */
 bool world_names(const World *world, uint64_t born, Error *error);
@@ -160,6 +161,10 @@ bool sentinel_mark(World *world, Error *error);
 /* At the begin of a frame: after many calm steps, takes back the last halving if friction allows the longer
    step. */
 void sentinel_lengthen_step(World *world);
+
+/* Call after a wrong guess in the first step of a frame: restores the state of `sentinel_mark`, before
+   emitters and drains, at the same step number, without a trace of the step. */
+void sentinel_again(World *world);
 
 /* Call after a step that is checked only at the end of its frame: remembers a solver in trouble until then.
    For non-finite residuals the frame's watch reports in better words. */

@@ -71,18 +71,19 @@ static void drained(World *world, size_t number)
     world->count -= number;
 }
 
-void world_finish(World *world)
+bool world_finish(World *world)
 {
     size_t flowed[FLOWS_MAX];
     if (!world->backend->finish)
-        return;
-    world->backend->finish(world->state, world->bodies != NULL, flowed);
-    for (int k = 0; k < world->flow_count; k++)
+        return true;
+    const bool good = world->backend->finish(world->state, world->bodies != NULL, flowed);
+    for (int k = 0; good && k < world->flow_count; k++)
         if (world->flows[k].drains)
             drained(world, flowed[k]);
         else
             layer_came(world, &world->flows[k], flowed[k]);
     world->flow_count = 0;
+    return good;
 }
 
 /* Flow number FLOWS_MAX of a step waits for the numbers. */

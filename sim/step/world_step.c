@@ -90,10 +90,11 @@ static void choose_step(World *world)
     s->dt = dt;
 }
 
-/* Returns false if memory is short. */
-static bool begin_step(World *world, Error *error)
+/* Returns false if memory is short. *marked: the state is that of the mark. */
+static bool begin_step(World *world, bool *marked, Error *error)
 {
     StepState *s = &world->stepping;
+    *marked = s->frame_left < 1 && world->def.retries > 0;
     if (s->frame_left < 1) {
         sentinel_lengthen_step(world);
         if (world->births.count > world->births_most)
@@ -139,30 +140,44 @@ static void tell_forces(World *world, const Substep *step)
     world->step_forces = (Forces){0};
 }
 
-bool world_substep(World *world, StageClock *clock, Error *error)
+/* *good: false after a wrong guess. Returns false with the reason. */
+static bool take_step(World *world, StageClock *clock, bool guesses, Substep *step, bool *good, Error *error)
 {
-    Substep step;
-    StepState *s = &world->stepping;
-    if (s->frame_left < 1 && !world_is_valid(world)) {
-        const double time = world_time_at(world, (double)world->step);
-        count_step(world); /* no two states share a step number */
-        return sentinel_back(world, time, error);
-    }
-    if (!begin_step(world, error))
-        return false;
     bool flowed = world->sums_forces || !energy_needs_solids(world) || world_sum_forces(world, error);
     if (flowed && (world->constants.emits || world->def.drain_count > 0))
         STAGE (clock, STAGE_INTEGRATE)
             flowed = world_flow(world, error);
     if (!flowed)
         return false;
-    substep_prepare(world, clock, &step);
+    substep_prepare(world, clock, step);
+    if (guesses && world->backend->guess)
+        world->backend->guess(world->state);
     if (world->backend->enter)
         world->backend->enter(world->state);
-    substep_whole(&step, world->method->substep);
+    substep_whole(step, world->method->substep);
     if (world->backend->leave)
         world->backend->leave(world->state);
-    world_finish(world);
+    *good = world_finish(world);
+    return true;
+}
+
+bool world_substep(World *world, StageClock *clock, Error *error)
+{
+    Substep step;
+    StepState *s = &world->stepping;
+    bool marked, good;
+    if (s->frame_left < 1 && !world_is_valid(world)) {
+        const double time = world_time_at(world, (double)world->step);
+        count_step(world); /* no two states share a step number */
+        return sentinel_back(world, time, error);
+    }
+    if (!begin_step(world, &marked, error) || !take_step(world, clock, marked, &step, &good, error))
+        return false;
+    if (!good) {
+        sentinel_again(world);
+        if (!take_step(world, clock, false, &step, &good, error))
+            return false;
+    }
     if (world->bodies)
         end_of_bodies(world);
     tell_forces(world, &step);

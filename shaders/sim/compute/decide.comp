@@ -14,6 +14,7 @@ bool decide(float mean, float greatest)
     iterations++;
     left_mean = mean;
     left_most = greatest;
+    particles = particles_there();
     bool far = is_nan(mean) || mean > tolerance || (greatest > worst && iterations < iterations_few);
     if (iterations < iterations_most && far)
         return true;

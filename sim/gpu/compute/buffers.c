@@ -309,7 +309,7 @@ void compute_watch_reset(Compute *c, size_t guarded)
 {
     glClearNamedBufferData(c->watch.buffer, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     mailbox_forget(&c->watch);
-    c->watch_due = false;
+    c->watch_due = c->watch_here = false;
     c->longest = 0;
     c->guarded_before = guarded;
     c->guarded = 0;

@@ -12,11 +12,11 @@
 static void compute_destroy(void *state)
 {
     Compute *c = state;
-    const GLuint buffers[] = {c->cell,         c->rank,           c->order,        c->start,
-                              c->totals[0],    c->totals[1],      c->totals[2],    c->pressure,
-                              c->acceleration, c->constant_block, c->step,         c->terms,
-                              c->of_method,    c->drag,           c->scratch,      c->lists,
-                              c->near,         c->forces.buffer,  c->forces.marked};
+    const GLuint buffers[] = {
+        c->cell,          c->rank,     c->order,        c->start,          c->totals[0], c->totals[1],
+        c->totals[2],     c->pressure, c->acceleration, c->constant_block, c->step,      c->terms,
+        c->of_method,     c->drag,     c->scratch,      c->lists,          c->near,      c->forces.buffer,
+        c->forces.marked, c->solve,    c->parts};
     compute_particles_destroy(&c->now);
     compute_particles_destroy(&c->spare);
     compute_particles_destroy(&c->marked);
@@ -26,8 +26,7 @@ static void compute_destroy(void *state)
     mailbox_destroy(&c->watch);
     mailbox_destroy(&c->gauge);
     mailbox_destroy(&c->energy);
-    mailbox_destroy(&c->solve);
-    mailbox_destroy(&c->parts);
+    mailbox_destroy(&c->solves.found);
     mailbox_destroy(&c->forces.sums);
     compute_boundary_destroy(c);
     compute_meshes_destroy(c);
@@ -204,6 +203,7 @@ const Backend backend_compute = {
     .grid = compute_grid,
     .run = compute_pass,
     .iterate = compute_iterate,
+    .guess = compute_guess,
     .kick = compute_kick,
     .touch = compute_touch,
     .guide = compute_guide,

@@ -5,6 +5,7 @@
 
 #include "sim/gpu/particle_buffers.h"
 #include "sim/step/backend.h"
+#include "sim/step/substep.h"
 
 enum {
     COMPUTE_SCAN_LEVELS = 3,
@@ -13,7 +14,8 @@ enum {
     COMPUTE_LAYER = 4096,
     COMPUTE_GAUGE_GROUPS = 64,
     COMPUTE_EXCESS_GROUPS_MOST = 512,
-    COMPUTE_ALONG = 65535, /* work groups per row */
+    COMPUTE_GUESS_AFTER = 4, /* steps in which a guess would have been right */
+    COMPUTE_ALONG = 65535,   /* work groups per row */
     COMPUTE_NAMED = 19,
     COMPUTE_BINDINGS = 32,                    /* more than shaders/sim/bindings.h and the methods have */
     COMPUTE_BUFFERS = METHOD_BUFFERS_MAX + 4, /* of the method, and a buffer per term */
@@ -116,6 +118,20 @@ typedef struct ComputeForces {
     struct Forces *to; /* NULL: not requested */
 } ComputeForces;
 
+/* Solvers of a step, without buffers if no pass iterates. */
+typedef struct ComputeSolves {
+    Mailbox found; /* of each solver SolveBlock, then parts of `way` and `left` */
+    int guessed;   /* solvers with a guessed end; the iterations and the report of each */
+    struct {
+        Iteration of;
+        StepSolve *to;
+    } guess[SOLVES_MAX];
+    bool may_guess; /* in this step */
+    bool missed;    /* a guess was wrong in this step, or would have been */
+    int right;      /* consecutive steps in which all guesses were right, or would have been */
+    int needed;     /* further steps before the next guess: doubles with each wrong guess */
+} ComputeSolves;
+
 /* The context's bindings, to leave out repeated calls. Known within a step only: between steps, pictures and
    other worlds bind as well. */
 typedef struct ComputeBound {
@@ -146,15 +162,15 @@ typedef struct Compute {
     unsigned acceleration;                /* vec4 */
     Mailbox watch;                        /* WatchBlock */
     bool watch_due;                       /* kicks were noted and not sent */
-    bool watch_here;                      /* sent before a copy that was waited for */
+    bool watch_here;                      /* arrived: sent before a copy waited for */
     float longest;                        /* longest dt of the kicks since the watch was read, s */
-    Mailbox solve;                        /* SolveBlock; none if no pass iterates */
-    Mailbox parts;                        /* ExcessPart per group: iterate.c; none if no pass iterates */
-    bool decided;                         /* passes of a solver take their number of work groups from
-                                             SolveBlock */
-    Mailbox gauge;                        /* GaugePart per group; none before the first `gauge` */
-    Mailbox energy;                       /* energy.comp: sums per group; none before the first */
-    size_t gauged;                        /* particles in the last gauge */
+    unsigned solve, parts;                /* SolveBlock, ExcessPart per group; 0: no pass iterates */
+    ComputeSolves solves;
+    bool decided;   /* passes of a solver take their number of work groups from
+                       SolveBlock */
+    Mailbox gauge;  /* GaugePart per group; none before the first `gauge` */
+    Mailbox energy; /* energy.comp: sums per group; none before the first */
+    size_t gauged;  /* particles in the last gauge */
     ComputeForces forces;
     unsigned shown[COMPUTE_SHOWN]; /* for the views: uint or float; 0 before the first request */
     unsigned constant_block, step; /* uniform blocks */
@@ -221,8 +237,8 @@ void compute_add_solid_forces(Compute *compute, const Pass *pass, float dt);
 void compute_forces_mark(Compute *compute);
 void compute_forces_back(Compute *compute);
 
-/* compute_forces_send: sends the sums of forces; false without a request. compute_forces_take: adds sums that
-   have come. */
+/* compute_forces_send: sends the sums of forces; false without a request. compute_forces_take: adds arrived
+   sums. */
 bool compute_forces_send(Compute *compute);
 void compute_forces_take(Compute *compute, const void *sums);
 
@@ -333,8 +349,9 @@ size_t compute_drain(void *state, const Fill *regions, int count);
 void compute_grid(void *state);
 void compute_drift(void *state, const BoxStep *step);
 void compute_pass(void *state, const Pass *pass, const PassInput *input);
-void compute_iterate(void *state, const struct Iteration *iteration, const PassInput *input,
-                     StepSolve *solve);
+bool compute_iterate(void *state, const Iteration *iteration, const PassInput *input, StepSolve *solve,
+                     IterationFound *found);
+void compute_guess(void *state);
 void compute_kick(void *state, const float gravity[3], float dt);
 void compute_touch(void *state, const FingerStep *finger);
 StepWatch compute_watch(void *state);
@@ -342,7 +359,7 @@ bool compute_mark(void *state, Error *error);
 void compute_back(void *state, size_t count, size_t guarded);
 bool compute_enable_forces(void *state, struct Forces *to, Error *error);
 bool compute_forces_ready(void *state);
-void compute_finish(void *state, bool forces, size_t *flowed);
+bool compute_finish(void *state, bool forces, size_t *flowed);
 void compute_share(void *state, unsigned attributes, struct ParticleBuffers *out);
 void compute_sums(void *state, WorldSums *sums);
 bool compute_read(void *state, const ParticleArrays *out);

@@ -217,7 +217,7 @@ void compute_run(Compute *c, ComputePass pass, size_t count)
     bind_blocks(c);
     use(c, pass);
     if (decided >= 0) {
-        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, c->solve.buffer);
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, c->solve);
         glDispatchComputeIndirect(decided);
     } else
         dispatch((count + COMPUTE_GROUP - 1) / COMPUTE_GROUP);
@@ -266,7 +266,7 @@ static const struct {
     {"DragTables", offsetof(Compute, drag)},
     {"WatchBlock", offsetof(Compute, watch.buffer)},
     {"ForceParts", offsetof(Compute, forces.buffer)},
-    {"SolveBlock", offsetof(Compute, solve.buffer)},
+    {"SolveBlock", offsetof(Compute, solve)},
     {"Rests", offsetof(Compute, boundary.rest)},
     {"BoundaryPositions", offsetof(Compute, boundary.position)},
     {"BoundaryVelocities", offsetof(Compute, boundary.velocity)},

@@ -89,13 +89,14 @@ void compute_touch(void *state, const FingerStep *finger)
 
 /* The loop of an iterating solver, decided on the GPU. Passes of an iteration take their work groups from a
    buffer, and after each iteration a small pass sets the number to 0 once the residual is small enough. A
-   batch has slightly more iterations than the last step needed. So a step usually waits once per solver,
-   not once per iteration. */
+   batch has some more iterations than the last step needed. A guess takes a single batch for enough, and
+   compute_finish checks all guesses of a step together. A wrong guess costs the step: guesses begin after
+   steps with right predictions, and after more steps for each wrong guess. */
 
-enum { MORE = 2 }; /* iterations beyond those of the last step */
+enum { MORE = 2, NEEDED_MOST = 64 }; /* iterations beyond those of the last step; ComputeSolves.needed */
 
-/* Summed columns: the residual, its scale, and requested columns. */
-enum { RESIDUAL_PARTS, SCALE_PARTS = EXCESS_OF_SCALE, ASKED_PARTS, PARTS = ASKED_PARTS + ITERATION_ASKED };
+/* Summed columns: the residual, the scale, and columns of the report. */
+enum { RESIDUAL_PARTS, SCALE_PARTS = EXCESS_OF_SCALE, REPORT_PARTS, PARTS = REPORT_PARTS + 2 };
 
 /* A group for each 1024 particles: of the capacity, so that no other number changes the sums. */
 static size_t excess_groups(const Compute *c)
@@ -106,12 +107,25 @@ static size_t excess_groups(const Compute *c)
                                                  : COMPUTE_EXCESS_GROUPS_MOST;
 }
 
+static size_t bytes_of_parts(const Compute *c, int columns)
+{
+    return (size_t)columns * excess_groups(c) * sizeof(ExcessPart);
+}
+
+/* A solver's share of the mailbox. */
+static size_t bytes_found(const Compute *c)
+{
+    return sizeof(SolveBlock) + bytes_of_parts(c, PARTS - REPORT_PARTS);
+}
+
 bool compute_iterate_fit(Compute *c)
 {
-    if (c->parts.buffer || !compute_iterates(c->constants))
+    if (c->parts || !compute_iterates(c->constants))
         return true;
-    return mailbox_create(&c->parts, "parts of residuals", PARTS * excess_groups(c) * sizeof(ExcessPart)) &&
-           mailbox_create(&c->solve, "solver", sizeof(SolveBlock));
+    c->parts = compute_buffer(c, "parts of residuals", bytes_of_parts(c, PARTS));
+    c->solve = compute_buffer(c, "solver", sizeof(SolveBlock));
+    return c->parts && c->solve &&
+           mailbox_create(&c->solves.found, "results of solvers", SOLVES_MAX * bytes_found(c));
 }
 
 static void begin(const Compute *c, const Iteration *iteration)
@@ -133,7 +147,7 @@ static void begin(const Compute *c, const Iteration *iteration)
                               .iterations_most = (uint)iteration->most,
                               .scaled = iteration->scale != NULL};
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    glNamedBufferSubData(c->solve.buffer, 0, sizeof block, &block);
+    glNamedBufferSubData(c->solve, 0, sizeof block, &block);
 }
 
 static GLuint place_of(const Compute *c, const ColumnDef *column)
@@ -145,44 +159,17 @@ static GLuint place_of(const Compute *c, const ColumnDef *column)
 static void sum_up(Compute *c, const ColumnDef *column, int which, const ColumnDef *power,
                    const ColumnDef *curvature)
 {
-    glProgramUniform4ui(c->program[COMPUTE_EXCESS], COLUMN_AT, place_of(c, column),
-                        (GLuint)which * (GLuint)excess_groups(c), place_of(c, power), place_of(c, curvature));
-    BIND(c, [SCRATCH_BUFFER] = c->scratch, [PARTS_BUFFER] = c->parts.buffer);
-    compute_run(c, COMPUTE_EXCESS, excess_groups(c) * COMPUTE_GROUP);
-}
-
-static Excess excess_of(const Compute *c, int which)
-{
     const size_t groups = excess_groups(c);
-    const ExcessPart *part = (const ExcessPart *)c->parts.mapped + (size_t)which * groups;
-    Excess excess = {0};
-    for (size_t k = 0; k < groups; k++) {
-        excess.mean += (double)part[k].above;
-        excess.greatest = part[k].greatest > excess.greatest ? part[k].greatest : excess.greatest;
-    }
-    excess.mean /= c->count > 0 ? (double)c->count : 1;
-    return excess;
-}
-
-/* Sends the requested sums before the solver's result, which is waited for. */
-static void ask(Compute *c, const Iteration *iteration)
-{
-    for (int k = 0; k < ITERATION_ASKED && iteration->asked[k].column; k++)
-        sum_up(c, iteration->asked[k].column, ASKED_PARTS + k, NULL, NULL);
-    if (iteration->asked[0].column)
-        mailbox_send(&c->parts);
-}
-
-static void answer(const Compute *c, const Iteration *iteration)
-{
-    for (int k = 0; k < ITERATION_ASKED && iteration->asked[k].column; k++)
-        *iteration->asked[k].to = excess_of(c, ASKED_PARTS + k);
+    glProgramUniform4ui(c->program[COMPUTE_EXCESS], COLUMN_AT, place_of(c, column),
+                        (GLuint)((size_t)which * groups), place_of(c, power), place_of(c, curvature));
+    BIND(c, [SCRATCH_BUFFER] = c->scratch, [PARTS_BUFFER] = c->parts);
+    compute_run(c, COMPUTE_EXCESS, groups * COMPUTE_GROUP);
 }
 
 static void decide(Compute *c, const Iteration *iteration)
 {
     sum_up(c, iteration->residual, RESIDUAL_PARTS, iteration->power, iteration->curvature);
-    BIND(c, [PARTS_BUFFER] = c->parts.buffer, [SOLVE_BUFFER] = c->solve.buffer);
+    BIND(c, [PARTS_BUFFER] = c->parts, [SOLVE_BUFFER] = c->solve);
     compute_run(c, COMPUTE_DECIDE, COMPUTE_GROUP);
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
 }
@@ -196,47 +183,141 @@ static void iterate_once(Compute *c, const Iteration *iteration, const PassInput
     c->decided = false;
 }
 
-void compute_iterate(void *state, const Iteration *iteration, const PassInput *input, StepSolve *solve)
+/* Copies the results of a solver to the solver's place in the mailbox. */
+static void put_found(Compute *c, const Iteration *iteration, int which)
+{
+    const size_t parts = bytes_of_parts(c, PARTS - REPORT_PARTS), at = (size_t)which * bytes_found(c);
+    const unsigned to = c->solves.found.buffer;
+    if (iteration->way)
+        sum_up(c, iteration->way, REPORT_PARTS, NULL, NULL);
+    if (iteration->left)
+        sum_up(c, iteration->left, REPORT_PARTS + 1, NULL, NULL);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glCopyNamedBufferSubData(c->solve, to, 0, (GLintptr)at, sizeof(SolveBlock));
+    if (iteration->way || iteration->left)
+        glCopyNamedBufferSubData(c->parts, to, (GLintptr)bytes_of_parts(c, REPORT_PARTS),
+                                 (GLintptr)(at + sizeof(SolveBlock)), (GLsizeiptr)parts);
+}
+
+static Excess excess_of(const Compute *c, const ExcessPart *part, double count)
+{
+    Excess excess = {0};
+    for (size_t k = 0; k < excess_groups(c); k++) {
+        excess.mean += (double)part[k].above;
+        excess.greatest = part[k].greatest > excess.greatest ? part[k].greatest : excess.greatest;
+    }
+    excess.mean /= fmax(count, 1);
+    return excess;
+}
+
+/* Reads the results of a solver; false if more iterations were needed than the `asked`. A GPU may have done
+   nothing. */
+static bool take_found(const Compute *c, const Iteration *iteration, int which, const void *all, int asked,
+                       IterationFound *found)
+{
+    if (!all) {
+        *found = (IterationFound){0};
+        return true;
+    }
+    const char *at = (const char *)all + (size_t)which * bytes_found(c);
+    const SolveBlock *block = (const void *)at;
+    const ExcessPart *part = (const void *)(at + sizeof *block);
+    *found = (IterationFound){.iterations = block->ended ? (double)block->iterations : asked,
+                              .mean = (double)block->left_mean,
+                              .most = (double)block->left_most};
+    if (iteration->way)
+        found->way = excess_of(c, part, block->particles);
+    if (iteration->left)
+        found->left = excess_of(c, part + excess_groups(c), block->particles);
+    return block->ended;
+}
+
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+bool compute_iterate(void *state, const Iteration *iteration, const PassInput *input, StepSolve *solve,
+                     IterationFound *found)
 {
     Compute *c = state;
-    /* without execution, as in a test of texts, the number set by `begin` comes back */
-    const int at_once = (int)fmin(solve->iterations, iteration->most) + MORE;
-    const SolveBlock *found;
-    int asked = 0;
+    ComputeSolves *solves = &c->solves;
+    const int last = (int)fmin(solve->iterations, iteration->most), at_once = last + MORE + last / 4;
+    int asked = 0, batches = 0;
+    bool ended;
     begin(c, iteration);
     if (iteration->scale)
         sum_up(c, iteration->scale, SCALE_PARTS, NULL, NULL);
     if (iteration->begun)
         decide(c, iteration);
     do {
-        for (int k = 0; k < at_once && asked < iteration->most; k++, asked++)
+        for (const int end = least(asked + at_once, iteration->most); asked < end; asked++)
             iterate_once(c, iteration, input);
-        ask(c, iteration);
-        mailbox_send(&c->solve);
-        found = mailbox_wait(&c->solve);
-    } while (found && !found->ended && asked < iteration->most);
-    answer(c, iteration);
-    *solve = (StepSolve){.tolerance = iteration->tolerance};
-    if (found)
-        *solve = (StepSolve){.iterations = found->ended ? (double)found->iterations
-                                                        : asked, /* a GPU may have done nothing */
-                             .mean = (double)found->left_mean,
-                             .most = (double)found->left_most,
-                             .tolerance = iteration->tolerance};
+        put_found(c, iteration, solves->guessed);
+        if (solves->may_guess) {
+            solves->guess[solves->guessed].of = *iteration;
+            solves->guess[solves->guessed++].to = solve;
+            return false;
+        }
+        mailbox_send(&solves->found);
+        ended = take_found(c, iteration, solves->guessed, mailbox_wait(&solves->found), asked, found);
+        batches++;
+    } while (!ended && asked < iteration->most);
+    solves->missed |= batches > 1 || iteration_strays(iteration, found);
+    return true;
 }
 
-/* All copies go off before a single wait, for the last. */
-void compute_finish(void *state, bool forces, size_t *flowed)
+void compute_guess(void *state)
 {
     Compute *c = state;
-    if (!forces && c->flow.calls == 0)
-        return;
+    c->solves.may_guess = c->solves.right >= COMPUTE_GUESS_AFTER + c->solves.needed;
+}
+
+/* Writes the reports of right guesses. */
+static void take_guesses(Compute *c, const void *all)
+{
+    ComputeSolves *solves = &c->solves;
+    for (int k = 0; k < solves->guessed; k++) {
+        const Iteration *iteration = &solves->guess[k].of;
+        IterationFound found;
+        const bool ended = take_found(c, iteration, k, all, 0, &found);
+        if (ended && !iteration_strays(iteration, &found))
+            iteration_report(iteration, &found, solves->guess[k].to);
+        else
+            solves->missed = true;
+    }
+}
+
+/* Sends all copies, then waits for the last copy. */
+static void finish(Compute *c, bool forces, size_t *flowed)
+{
+    Mailbox *const guesses = c->solves.guessed > 0 ? &c->solves.found : NULL;
     compute_watch_send(c);
+    if (guesses)
+        mailbox_send(guesses);
     const bool flows = compute_flow_send(c), sums = forces && compute_forces_send(c);
-    const void *found = mailbox_wait(sums ? &c->forces.sums : &c->flow.counts);
-    c->watch_here = true;
+    Mailbox *const last = sums ? &c->forces.sums : flows ? &c->flow.counts : guesses;
+    const void *found = last ? mailbox_wait(last) : NULL;
+    c->watch_here = found;
     if (sums)
         compute_forces_take(c, found);
     if (flows)
-        compute_flow_take(c, sums ? mailbox_look(&c->flow.counts) : found, flowed);
+        compute_flow_take(c, last == &c->flow.counts ? found : mailbox_look(&c->flow.counts), flowed);
+    if (guesses)
+        take_guesses(c, last == guesses ? found : mailbox_look(guesses));
+}
+
+bool compute_finish(void *state, bool forces, size_t *flowed)
+{
+    Compute *c = state;
+    ComputeSolves *solves = &c->solves;
+    if (forces || c->flow.calls > 0 || solves->guessed > 0)
+        finish(c, forces, flowed);
+    const bool good = solves->guessed == 0 || !solves->missed;
+    solves->right = solves->missed ? 0 : solves->right + 1;
+    solves->needed = good ? solves->needed - (solves->guessed > 0 && solves->needed > 0)
+                          : least(2 * solves->needed + COMPUTE_GUESS_AFTER, NEEDED_MOST);
+    solves->guessed = 0;
+    solves->may_guess = solves->missed = false;
+    return good;
 }

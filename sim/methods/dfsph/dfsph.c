@@ -76,14 +76,13 @@ static void solve(const Substep *step, int which, const Pass *const passes[4], d
                                  .worst = fmax(WORST * tolerance, WORTH[which]),
                                  .few = FEW,
                                  .most = dfsph_solvers(step->constants)->most,
-                                 .begun = true};
+                                 .begun = true,
+                                 .allowed = allowed};
     substep_run(step, passes[0], step->dt);
     if (which == SOLVE_DIVERGENCE) /* the solver begins with multipliers */
         substep_run(step, passes[1], step->dt);
     substep_run(step, passes[2], step->dt);
     substep_iterate(step, &iteration, which, step->dt);
-    step->solves[which].tolerance = allowed;
-    step->solves[which].failed = !(step->solves[which].mean <= STEP_SOLVE_STANDS * allowed);
     substep_run(step, passes[3], step->dt);
 }
 

@@ -85,54 +85,33 @@ static void renew_lists(const Substep *step)
     substep_run(step, &pbf_density, step->dt);
 }
 
-/* Iterate, with new lists where the old lists became useless, whatever their residual. Returns the number of
-   iterations; *left is the final compression. */
-static int iterate(const Substep *step, double tolerance, Excess *left)
-{
-    const int most = pbf_solver(step->constants)->most;
-    Excess way = {0};
-    Iteration iteration = {.passes = {&pbf_move, &pbf_density},
-                           .residual = pbf_miss,
-                           .tolerance = tolerance,
-                           .most = most,
-                           .asked = {{pbf_way, &way}, {pbf_compressed, left}}};
-    for (int lists = 1;; lists++) {
-        substep_iterate(step, &iteration, 0, step->dt);
-        iteration.most -= (int)step->solves[0].iterations;
-        if (way.mean <= WAY_MOST || iteration.most <= 0 || lists == LISTS_MOST)
-            return most - iteration.most;
-        renew_lists(step);
-        iteration.begun = true;
-    }
-}
-
 /* Factor of the residual for calm fluid (sim/methods/shared/incompressible.h), in a step of at least the time
    to settle. A column of 15 layers meets the mean tolerance even if only the lowest row was moved; then steps
    with more and with fewer iterations alternate. */
 static const double CALM = 0.15;
 
-/* A step reports the compression at its end; a solver in trouble reports the compression after many such
-   steps. */
+/* Iterate, with new lists where the old lists became useless, whatever their residual. A step reports the
+   compression at its end; a solver in trouble reports the compression after many such steps. A tolerance of 0
+   asks for a number of iterations, without a residual. */
 static void hold_density(const Substep *step)
 {
     const double tolerance = pbf_solver(step->constants)->tolerance,
                  share = (double)PBF_SHARE(pbf_constants(step->constants)->settle_rate * (float)step->dt);
-    StepSolve *solve = &step->solves[0];
-    Excess left = {0};
-    begin(step);
     const double calm = share < 1 ? share * tolerance
                                   : incompressible_rest_residual(step, step->dt, CALM, tolerance, tolerance);
-    solve->iterations = iterate(step, calm, &left);
-    solve->tolerance = tolerance;
-    solve->mean /= share;
-    solve->most /= share;
-    solve->failed = !(solve->mean <= STEP_SOLVE_STANDS * tolerance);
-    if (tolerance == 0) /* asked for a number of iterations, without a residual */
-        solve->failed = false;
-    if (solve->failed)
-        return;
-    solve->mean = left.mean;
-    solve->most = left.greatest;
+    const Iteration iteration = {.passes = {&pbf_move, &pbf_density},
+                                 .residual = pbf_miss,
+                                 .tolerance = calm,
+                                 .most = pbf_solver(step->constants)->most,
+                                 .way = pbf_way,
+                                 .way_most = WAY_MOST,
+                                 .renew = renew_lists,
+                                 .renewals = LISTS_MOST - 1,
+                                 .unit = share,
+                                 .allowed = tolerance > 0 ? tolerance : -1,
+                                 .left = pbf_compressed};
+    begin(step);
+    substep_iterate(step, &iteration, 0, step->dt);
 }
 
 /* The whole flight comes first; grid and lists are made at the end of the flight. */

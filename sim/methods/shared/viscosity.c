@@ -340,7 +340,8 @@ static void solve(const Substep *step)
                                  .tolerance = own->tolerance,
                                  .few = 1, /* at least one iteration if any residual is above 0 */
                                  .most = own->most,
-                                 .begun = true};
+                                 .begun = true,
+                                 .allowed = own->tolerance};
     substep_run(step, &viscosity_begin, step->dt);
     substep_run(step, &viscosity_product, step->dt);
     substep_iterate(step, &iteration, SOLVE_VISCOSITY, step->dt);
