@@ -134,6 +134,7 @@ static void make_frame(Renderer *renderer, const Subject *subject, const Target 
                (CoveredParts){renderer->covered.left, fmax(renderer->covered.right, legend)});
     frame->plain = renderer->plain;
     frame->more = renderer->more;
+    frame->neighbourhood = &renderer->derived.neighbourhood;
     frame->stale = renderer->late ? &renderer->stale : NULL;
     if (renderer->view)
         view_show(renderer->view, subject->def, frame);
@@ -175,6 +176,7 @@ static void end_picture(Renderer *renderer)
 
 static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer, ViewCounts *counts)
 {
+    neighbourhood_forget(&renderer->derived.neighbourhood);
     const ParticleBuffers with = derived_of(renderer, state, timer);
     const Subject subject = subject_of(renderer);
     Picture *picture = &renderer->picture;

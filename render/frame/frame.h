@@ -433,6 +433,7 @@ typedef struct FrameCurves {
 } FrameCurves;
 
 struct OverlayDepth;
+struct Neighbourhood;
 
 /* A picture as all its passes see it. */
 typedef struct Frame {
@@ -461,6 +462,9 @@ typedef struct Frame {
     bool flat;      /* the view is no look into space (a flat slice): no edges of the box */
     bool no_solids; /* the view draws the solids itself */
 
+    /* Grid of the picture's particles (render/particles/particles.h), for passes that said so in
+       ParticleWants.neighbours. */
+    struct Neighbourhood *neighbourhood;
     /* Depths over the view (render/frame/passes.h), for a view with draw_front; NULL: none. */
     const struct OverlayDepth *over;
 } Frame;
@@ -468,7 +472,8 @@ typedef struct Frame {
 /* Frame.slab: a two-dimensional scene is as deep as one particle layer. */
 double frame_slab_depth(const ParticleBuffers *particles);
 
-/* Fills all of `frame` except timer, counts, stale, more, plain, depths, floor.light and over. */
+/* Fills all of `frame` except timer, counts, stale, more, plain, depths, floor.light,
+   neighbourhood and over. */
 void frame_make(Frame *frame, const Subject *subject, const ParticleBuffers *particles, const Target *target,
                 ParticleRadii radii, CoveredParts covered);
 

@@ -136,18 +136,20 @@ static DerivedPack *pack_of(Derived *derived, const DerivedFormula *recipe)
     return recipe->near_too && reads(recipe) ? &derived->pack[moves ? 0 : 1] : NULL;
 }
 
+static bool follow_neighbourhood(Derived *derived, Error *error)
+{
+    derived->sorts = derived->sorts || neighbourhood_create(&derived->neighbourhood, error);
+    if (!derived->sorts)
+        neighbourhood_destroy(&derived->neighbourhood);
+    return derived->sorts;
+}
+
 static bool follow_near(Derived *derived, const DerivedFormula *recipe, Error *error)
 {
     DerivedPack *pack = pack_of(derived, recipe);
-    if (recipe->near_too && !derived->sorts) {
-        derived->sorts = neighbourhood_create(&derived->neighbourhood, error);
-        if (!derived->sorts) {
-            neighbourhood_destroy(&derived->neighbourhood);
-            return false;
-        }
-    }
-    return !pack ||
-           compile(&pack->program, "derived/derived_pack.comp", "pack", reads_defines(recipe), error);
+    return (!recipe->near_too || follow_neighbourhood(derived, error)) &&
+           (!pack ||
+            compile(&pack->program, "derived/derived_pack.comp", "pack", reads_defines(recipe), error));
 }
 
 static bool follow(Derived *derived, unsigned *program, const DerivedFormula *recipe, const char *name,
@@ -177,7 +179,7 @@ bool derived_update(Derived *derived, const ParticleWants *wants, Error *error)
             !follow(derived, &derived->vector_program[v], &vector_recipes[v], vector_list[v].name, "vec4",
                     error))
             return false;
-    return true;
+    return !wants->neighbours || follow_neighbourhood(derived, error);
 }
 
 void derived_destroy(Derived *derived)
@@ -237,7 +239,7 @@ void derived_release(Derived *derived, const ParticleWants *wants)
             derived->pack[p].texels = 0;
             give_back(&derived->pack[p].buffer, &derived->pack[p].capacity);
         }
-    if (derived->sorts && !needs_near(wants, NULL, derived)) {
+    if (derived->sorts && !wants->neighbours && !needs_near(wants, NULL, derived)) {
         neighbourhood_destroy(&derived->neighbourhood);
         derived->sorts = false;
     }
@@ -334,7 +336,6 @@ typedef struct DerivedJob {
     Derived *derived;
     const DerivedSpace *space;
     const ParticleBuffers *particles;
-    bool sorted;
     unsigned packed[2]; /* content of each pack, PARTICLE_*; 0: empty */
 } DerivedJob;
 
@@ -350,15 +351,13 @@ static bool reserve_pack(Derived *derived, DerivedPack *pack, size_t count)
     return true;
 }
 
-/* Sorts the particles and packs the neighbour data, once for all recipes with the same inputs. */
+/* Sorts the particles if needed and packs the neighbour data, once for all recipes with the same inputs. */
 static bool prepare_near(DerivedJob *making, const DerivedFormula *recipe)
 {
     Derived *derived = making->derived;
     DerivedPack *pack = pack_of(derived, recipe);
     unsigned *packed = pack ? &making->packed[pack - derived->pack] : NULL;
-    if (!making->sorted)
-        neighbourhood_build(&derived->neighbourhood, making->particles);
-    making->sorted = true;
+    neighbourhood_build(&derived->neighbourhood, making->particles);
     if (!pack)
         return true;
     if (*packed != reads(recipe)) {
@@ -443,7 +442,7 @@ ParticleAttribute derived_trapped_air(Derived *derived, const DerivedSpace *spac
                                       const ParticleBuffers *particles, double slowest)
 {
     const Scalar air = SCALAR_TRAPPED_AIR;
-    DerivedJob making = {derived, space, particles, false, {0}};
+    DerivedJob making = {derived, space, particles, {0}};
     if (!due(true, derived->scalar_program[air], &scalar_recipes[air], particles))
         return particles->scalar[air];
     return make_scalar(&making, air, slowest, &derived->foam_buffer, &derived->foam_capacity);
@@ -452,8 +451,9 @@ ParticleAttribute derived_trapped_air(Derived *derived, const DerivedSpace *spac
 void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpace *space,
                   ParticleBuffers *particles)
 {
-    DerivedJob making = {derived, space, particles, false, {0}};
+    DerivedJob making = {derived, space, particles, {0}};
     const size_t count = particles->count;
+    neighbourhood_forget(&derived->neighbourhood);
     for (int s = 0; s < SCALAR_COUNT; s++) {
         const unsigned program = derived->scalar_program[s];
         if (particles->scalar[s].buffer ||

@@ -215,11 +215,21 @@ static void bind_positions(const Neighbourhood *n, const ParticleBuffers *partic
     glProgramUniform1ui(n->sort, POSITION_STRIDE_AT, (GLuint)(position->stride / 4));
 }
 
+static bool is_of(const Neighbourhood *n, const ParticleBuffers *particles)
+{
+    const ParticleAttribute *position = &particles->position;
+    return n->of.buffer == position->buffer && n->of.offset == position->offset &&
+           n->of.stride == position->stride && n->count == particles->count;
+}
+
 void neighbourhood_build(Neighbourhood *n, const ParticleBuffers *particles)
 {
+    if (is_of(n, particles))
+        return;
     const size_t cells = make_grid(n, particles);
     if (particles->count == 0)
         return;
+    n->of = particles->position;
     reserve_grid(n, particles->count, cells);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glClearNamedBufferData(n->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);

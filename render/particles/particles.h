@@ -198,6 +198,8 @@ void selection_run(Selection *selection, size_t count, void (*set)(unsigned prog
    cells apart there, and pictures of a computed and of a loaded state would differ. A new grid costs 5 %
    of a picture of `splat` (100,000 particles at 1280 x 720 on a software driver, 7.6 of 157 ms).
 
+   A renderer has one grid, which all passes of a picture share (Frame.neighbourhood).
+
    Particles beside the box are in the cells at the sides. Particles farther than eight cells from the box,
    or with NaN positions, are in no cell and have no neighbours. */
 
@@ -212,18 +214,26 @@ typedef struct Neighbourhood {
     unsigned start;             /* uint per cell and two more: the first index of the cell in `sorted`;
                                    particles in no cell come last */
     size_t capacity, cells_capacity;
-    unsigned size[3]; /* cells along each axis */
-    unsigned count;   /* particles */
-    float corner[3];  /* least corner of the grid, m */
-    float scale;      /* cells per metre */
+    ParticleAttribute of; /* positions of the present grid; buffer 0: none, or contents may be new */
+    unsigned size[3];     /* cells along each axis */
+    unsigned count;       /* particles */
+    float corner[3];      /* least corner of the grid, m */
+    float scale;          /* cells per metre */
 } Neighbourhood;
 
 /* Returns false if a shader does not compile; call neighbourhood_destroy in either case. */
 bool neighbourhood_create(Neighbourhood *neighbourhood, Error *error);
 void neighbourhood_destroy(Neighbourhood *neighbourhood);
 
-/* Builds the grid of a state. The edge of a cell is at least the support radius. */
+/* Builds the grid of a state, unless the present grid is of the same positions. The edge of a cell is at
+   least the support radius. */
 void neighbourhood_build(Neighbourhood *neighbourhood, const ParticleBuffers *particles);
+
+/* For the begin of a picture: positions in the same buffer may be new. */
+static inline void neighbourhood_forget(Neighbourhood *neighbourhood)
+{
+    neighbourhood->of.buffer = 0;
+}
 
 /* Runs a program of shaders/common/neighbourhood.glsl with one invocation per particle, in the order of
    `sorted`; then a memory barrier lets shaders read the results. */
@@ -357,10 +367,10 @@ typedef struct Derived {
     size_t scalar_capacity[SCALAR_COUNT], vector_capacity[VECTOR_COUNT]; /* particles */
     bool sorts;                                                          /* `neighbourhood` has been
                                                                             created */
-    Neighbourhood neighbourhood;
-    DerivedPack pack[2];  /* of velocities; of a scalar */
-    unsigned births;      /* buffer: the table of ParticleBuffers.births */
-    unsigned foam_buffer; /* result of derived_trapped_air */
+    Neighbourhood neighbourhood; /* for ParticleWants.neighbours too */
+    DerivedPack pack[2];         /* of velocities; of a scalar */
+    unsigned births;             /* buffer: the table of ParticleBuffers.births */
+    unsigned foam_buffer;        /* result of derived_trapped_air */
     size_t foam_capacity;
     const char *lacks; /* name of data that did not fit into GPU memory since derived_release; NULL: none */
 } Derived;

@@ -64,6 +64,7 @@ typedef struct ParticleWants {
     uint32_t vectors;       /* VECTOR_BIT */
     unsigned attributes;    /* PARTICLE_VELOCITY, PARTICLE_FLUID, PARTICLE_ID */
     uint64_t drawn_scalars; /* SCALAR_BIT: derived by a pass while drawing, and no part of the state */
+    bool neighbours;        /* a pass reads the picture's neighbourhood while drawing */
 } ParticleWants;
 
 #define SCALAR_BIT(scalar) (UINT64_C(1) << (scalar))

@@ -94,9 +94,12 @@ static Arrow *arrows_of(const Wind *wind, const ViewDef *def, size_t *count, dou
 {
     Error error = {0};
     const WorldDef world = bare_world();
-    const Frame frame = {.def = def, .world = &world, .slab = frame_slab_depth(&wind->buffers)};
     GlyphArrows arrows = {0};
     Derived derived = {0};
+    const Frame frame = {.def = def,
+                         .world = &world,
+                         .slab = frame_slab_depth(&wind->buffers),
+                         .neighbourhood = &derived.neighbourhood};
     ParticleBuffers buffers = wind->buffers;
     ParticleWants wants = {0};
     uint32_t indices = 0;

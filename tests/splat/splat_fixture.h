@@ -111,6 +111,7 @@ typedef struct SplatDrawing {
     void *view;
     Target target;
     Upload *upload;
+    Neighbourhood *neighbourhood; /* of the frame */
     unsigned uniforms;
 } SplatDrawing;
 
@@ -129,6 +130,9 @@ static inline SplatDrawing splat_open(SplatScene *scene, SplatGround *ground, bo
     buffers.count = scene->empty ? 0 : buffers.count;
     frame_make(&scene->frame, &(Subject){&scene->def, &scene->world}, &buffers, &drawing.target,
                view_radii(&view_splat, &scene->def, &buffers), (CoveredParts){0});
+    drawing.neighbourhood = calloc(1, sizeof *drawing.neighbourhood);
+    assert_true(drawing.neighbourhood && neighbourhood_create(drawing.neighbourhood, &error));
+    scene->frame.neighbourhood = drawing.neighbourhood;
     scene->frame.plain = plain;
     scene->frame.floor.light = no_shadows();
     drawing.uniforms = frame_uniforms_create();
@@ -146,6 +150,8 @@ static inline SplatDrawing splat_open(SplatScene *scene, SplatGround *ground, bo
 static inline void splat_close(SplatDrawing *drawing)
 {
     glDeleteBuffers(1, &drawing->uniforms);
+    neighbourhood_destroy(drawing->neighbourhood);
+    free(drawing->neighbourhood);
     upload_destroy(drawing->upload);
     target_destroy(&drawing->target);
     view_splat.destroy(drawing->view);

@@ -347,7 +347,8 @@ static void room_grows_ahead(void **state)
     (void)state;
     Error error = {0};
     SplatScene scene = splat_scene((double[]){0, 0.5, 3}, (double[]){0, 0.5, 0}, 20, 0.05);
-    Frame frame = {.def = &scene.def, .radii.drawn = 0.05F};
+    Neighbourhood near;
+    Frame frame = {.def = &scene.def, .radii.drawn = 0.05F, .neighbourhood = &near};
     Ellipsoids drops;
     ParticleBuffers buffers;
     size_t capacity = 0;
@@ -358,15 +359,17 @@ static void room_grows_ahead(void **state)
     scene.state.count = scene.particles->count;
     Upload *upload = upload_particles(scene.particles, &scene.state, &buffers);
     assert_true(ellipsoids_create(&drops, splat_def(&scene.def), &error));
+    assert_true(neighbourhood_create(&near, &error));
     for (buffers.count = 100; buffers.count <= 200; buffers.count++) {
         ellipsoids_make(&drops, &buffers, &frame);
-        assert_true(drops.capacity >= buffers.count && drops.neighbourhood.capacity >= buffers.count);
+        assert_true(drops.capacity >= buffers.count && near.capacity >= buffers.count);
         assert_true(buffers.count > 100 || drops.capacity == 100); /* no more where none is added */
-        changes += drops.capacity + drops.neighbourhood.capacity != capacity;
-        capacity = drops.capacity + drops.neighbourhood.capacity;
+        changes += drops.capacity + near.capacity != capacity;
+        capacity = drops.capacity + near.capacity;
     }
     assert_int_equal(changes, 3); /* 100, 150, 225 */
     ellipsoids_destroy(&drops);
+    neighbourhood_destroy(&near);
     upload_destroy(upload);
     free(scene.particles);
 }

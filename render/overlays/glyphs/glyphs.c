@@ -147,17 +147,13 @@ bool glyph_arrows_create(GlyphArrows *arrows, Error *error)
     static const char *const samples[] = {"glyphs/glyphs_samples.comp", NULL};
     arrows->particles = program_create("glyphs of particles", particles, NULL, error);
     arrows->samples = arrows->particles ? program_create("glyphs of samples", samples, NULL, error) : 0;
-    arrows->sorts = arrows->samples != 0;
-    return arrows->sorts && neighbourhood_create(&arrows->neighbourhood, error) &&
-           glyph_tallies_create(&arrows->tallies, error);
+    return arrows->samples && glyph_tallies_create(&arrows->tallies, error);
 }
 
 void glyph_arrows_destroy(GlyphArrows *arrows)
 {
     glDeleteProgram(arrows->particles);
     glDeleteProgram(arrows->samples);
-    if (arrows->sorts)
-        neighbourhood_destroy(&arrows->neighbourhood);
     glDeleteBuffers(1, &arrows->arrows);
     glyph_tallies_destroy(&arrows->tallies);
     glDeleteBuffers(1, &arrows->no_scalar);
@@ -307,14 +303,14 @@ static void of_samples(GlyphArrows *arrows, const ParticleBuffers *particles, co
         return;
     arrows->most = (size_t)samples.count[0] * (size_t)samples.count[1] * (size_t)samples.count[2];
     reserve_arrows(arrows, arrows->most);
-    neighbourhood_build(&arrows->neighbourhood, particles);
+    neighbourhood_build(frame->neighbourhood, particles);
     begin(arrows);
     set_vector(arrows, arrows->samples, particles, frame);
     glUseProgram(arrows->samples);
     set_samples(&samples, arrows->most);
     glUniform1f(GLYPH_SUPPORT_AT, (GLfloat)h);
     glUniform1f(GLYPH_PEAK_AT, (GLfloat)(plane_kernels[kernel].norm[dimensions - 2] / pow(h, dimensions)));
-    neighbourhood_run_for(&arrows->neighbourhood, arrows->samples, arrows->most);
+    neighbourhood_run_for(frame->neighbourhood, arrows->samples, arrows->most);
 }
 
 void glyph_arrows_make(GlyphArrows *arrows, const ParticleBuffers *particles, const Frame *frame)
@@ -459,6 +455,7 @@ static bool check(const Subject *subject, const char **key, Error *error)
 static void wants(const ViewDef *def, ParticleWants *wants)
 {
     wants->vectors |= def ? VECTOR_BIT(glyphs_def(def)->vector) : UINT32_MAX;
+    wants->neighbours |= def && glyphs_def(def)->at != GLYPHS_PARTICLES;
     if (!def || glyphs_def(def)->at == GLYPHS_PARTICLES)
         wants->attributes |= PARTICLE_ID;
 }

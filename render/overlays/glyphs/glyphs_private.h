@@ -48,15 +48,13 @@ double glyph_typical_magnitude(const GlyphTally *tally);
 /* Zero-initialise. */
 typedef struct GlyphArrows {
     unsigned particles, samples; /* programs */
-    Neighbourhood neighbourhood;
-    bool sorts;           /* `neighbourhood` has been created, at least in part */
-    unsigned arrows;      /* buffer: foot and vector, two vec4 per arrow */
-    GlyphTallies tallies; /* counts, and the drawing command: six indices per arrow */
-    unsigned no_scalar;   /* buffer: replaces a missing scalar */
-    size_t capacity;      /* capacity in arrows */
-    size_t most;          /* largest number of arrows of the last run; 0: none */
-    double apart;         /* approximate distance between arrows, m */
-    bool coarser;         /* spacing is larger than asked: there would be too many arrows */
+    unsigned arrows;             /* buffer: foot and vector, two vec4 per arrow */
+    GlyphTallies tallies;        /* counts, and the drawing command: six indices per arrow */
+    unsigned no_scalar;          /* buffer: replaces a missing scalar */
+    size_t capacity;             /* capacity in arrows */
+    size_t most;                 /* largest number of arrows of the last run; 0: none */
+    double apart;                /* approximate distance between arrows, m */
+    bool coarser;                /* spacing is larger than asked: there would be too many arrows */
 } GlyphArrows;
 
 /* Returns false if a shader does not compile; call glyph_arrows_destroy in either case. */

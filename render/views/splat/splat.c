@@ -363,6 +363,12 @@ static void splat_quality(ViewDef *def, ViewQuality quality)
         splat_def(def)->antialias = false;
 }
 
+static void splat_want(const ViewDef *def, ParticleWants *wants)
+{
+    const SplatDef own = splat_def_resolved(def);
+    wants->neighbours |= ellipsoids_crowded(&own);
+}
+
 static const KeyOwner spheres = {.key = "view.splat.level", .value = "0"};
 
 const ViewKind view_splat = {
@@ -384,6 +390,7 @@ const ViewKind view_splat = {
     .def = &splat_usual,
     .def_size = sizeof splat_usual,
     .same = splat_is_compatible,
+    .want = splat_want,
     .prepare = splat_prepare,
     .cast = splat_cast,
     .draw = splat_draw,

@@ -116,10 +116,9 @@ void splat_cull_to_limit(SplatCull *cull, const ParticleBuffers *particles, cons
 
 typedef struct Ellipsoids {
     SplatDef def;
-    Neighbourhood neighbourhood; /* if ellipsoids_wanted */
-    unsigned program;            /* if ellipsoids_crowded */
-    unsigned scale;              /* program for sizes by a scalar, else 0 */
-    unsigned shapes; /* buffer, see shaders/common/ball.glsl: three vec4 per particle, or one float if only
+    unsigned program; /* if ellipsoids_crowded */
+    unsigned scale;   /* program for sizes by a scalar, else 0 */
+    unsigned shapes;  /* buffer, see shaders/common/ball.glsl: three vec4 per particle, or one float if only
                         drops */
     size_t capacity;
 } Ellipsoids;
@@ -140,7 +139,8 @@ double ellipsoids_size_factor(const ViewDef *def, const ParticleBuffers *particl
 bool ellipsoids_create(Ellipsoids *ellipsoids, const SplatDef *def, Error *error);
 void ellipsoids_destroy(Ellipsoids *ellipsoids);
 
-/* Makes the ellipsoids from the particles' positions; does nothing if the view has no ellipsoids. */
+/* Makes the ellipsoids from the particles' positions, with frame->neighbourhood; does nothing if the view has
+ * no ellipsoids. */
 void ellipsoids_make(Ellipsoids *ellipsoids, const ParticleBuffers *particles, const Frame *frame);
 
 /* Binds the shapes for shaders with common/ball.glsl; does nothing if the view has no ellipsoids. */

@@ -25,15 +25,12 @@ bool ellipsoids_create(Ellipsoids *ellipsoids, const SplatDef *def, Error *error
     }
     if (!ellipsoids_crowded(def))
         return true;
-    if (!neighbourhood_create(&ellipsoids->neighbourhood, error))
-        return false;
     ellipsoids->program = program_create("splat shapes", shapes, NULL, error);
     return ellipsoids->program != 0;
 }
 
 void ellipsoids_destroy(Ellipsoids *ellipsoids)
 {
-    neighbourhood_destroy(&ellipsoids->neighbourhood);
     glDeleteProgram(ellipsoids->program);
     glDeleteProgram(ellipsoids->scale);
     glDeleteBuffers(1, &ellipsoids->shapes);
@@ -75,7 +72,7 @@ static void make_crowded(Ellipsoids *ellipsoids, const ParticleBuffers *particle
 {
     const bool flat = frame->slab > 0;
     const float radius = frame->radii.drawn;
-    neighbourhood_build(&ellipsoids->neighbourhood, particles);
+    neighbourhood_build(frame->neighbourhood, particles);
     const float drop =
         ellipsoids->def.drops ? fminf((float)(unit * drop_radius(particles, flat)), radius) : radius;
     glProgramUniform1f(ellipsoids->program, SUPPORT_RADIUS_AT, (float)particles->support_radius);
@@ -85,7 +82,7 @@ static void make_crowded(Ellipsoids *ellipsoids, const ParticleBuffers *particle
     if (ellipsoids_stretched(&ellipsoids->def))
         glProgramUniform1ui(ellipsoids->program, SLAB_AT, flat);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHAPES_STORAGE, ellipsoids->shapes);
-    neighbourhood_run(&ellipsoids->neighbourhood, ellipsoids->program);
+    neighbourhood_run(frame->neighbourhood, ellipsoids->program);
 }
 
 void ellipsoids_make(Ellipsoids *ellipsoids, const ParticleBuffers *particles, const Frame *frame)
