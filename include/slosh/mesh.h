@@ -81,6 +81,17 @@ double field_at(const FieldParticles *particles, const double r[3], double *weig
    does NaN. So the mesh is always closed: each edge belongs to two triangles with opposite directions along
    the edge. Triangles turn counter-clockwise seen from outside; no two vertices share a position. */
 
+/* The triangles of a cube, by the bits of its inside corners: bit x + 2 y + 4 z for the corner at x, y, z of
+   0 or 1. Edges are 4 axis + the bits of the two axes that follow. */
+enum { ISO_CASES = 256, ISO_TRIANGLES_MOST = 5 };
+
+typedef struct IsoCases {
+    uint8_t triangles[ISO_CASES];                    /* number */
+    uint8_t edge[ISO_CASES][3 * ISO_TRIANGLES_MOST]; /* three for each triangle */
+} IsoCases;
+
+void isosurface_cases(IsoCases *cases);
+
 /* A vertex on the edge from value number `at` to the next value along `axis`. */
 typedef struct IsoVertex {
     size_t at;

@@ -2,6 +2,7 @@
 // occlusion. First finds the nearest depth of each pixel, then the largest word of the points at that depth: exact and
 // independent of the order. One program for both passes, so that both have the same points to the bit. As render/views/pbsr/sets.c,
 // with other random numbers.
+#include "common/nan.glsl"
 #include "pbsr/sets.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = SETS_STORAGE) buffer Sets { uint sets[]; };
@@ -73,7 +74,7 @@ uint word_of(Point p)
     if (sum > 0.0 && p.normal.z < 0.0)
         n = (1.0 - abs(n.yx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0);
     uvec2 bits = uvec2((0.5 + 0.5 * n) * 1023.0 + 0.5);
-    uint value = share != share ? 255u : uint(clamp(share, 0.0, 1.0) * 254.0 + 0.5);
+    uint value = is_nan(share) ? 255u : uint(clamp(share, 0.0, 1.0) * 254.0 + 0.5);
     return bits.x | bits.y << 10 | value << 20 | layer << 28;
 }
 
@@ -114,7 +115,10 @@ Point on_triangle(uint piece)
     float u = random_part(), v = random_part();
     if (u + v > 1.0)
         u = 1.0 - u, v = 1.0 - v;
-    Point a = point_at(corners[3u * piece]), b = point_at(corners[3u * piece + 1u]), c = point_at(corners[3u * piece + 2u]);
+    uvec3 corner = 3u * piece + uvec3(0u, 1u, 2u);
+    if (kind == PIECE_TRIANGLES)
+        corner = uvec3(corners[corner.x], corners[corner.y], corners[corner.z]);
+    Point a = point_at(corner.x), b = point_at(corner.y), c = point_at(corner.z);
     vec3 part = vec3(1.0 - u - v, u, v);
     return Point(mat3(a.at, b.at, c.at) * part, mat3(a.normal, b.normal, c.normal) * part, dot(vec3(a.value, b.value, c.value), part),
                  dot(vec3(a.inside, b.inside, c.inside), part));
@@ -131,18 +135,23 @@ Point in_cell(uint piece)
 }
 
 // Independent Poisson processes add up to a Poisson process: each part of a piece has its own.
-void strew(uint piece, uint slot, uint part)
+void strew(uint piece, uint slot, uint part, float expected, float nearest)
 {
-    vec2 share = shares[piece]; // expected, nearest
-    float expected = min(share.x - PIECE_POINTS_MOST * float(part), PIECE_POINTS_MOST);
-    if (expected <= 0.0)
-        return;
     random_begin(first + piece, set_range.x + slot, part);
     for (float left = random_gap(); left < expected; left += random_gap()) {
-        Point p = kind == PIECE_TRIANGLES ? on_triangle(piece) : in_cell(piece);
-        float w = depth_w(p.at), part = kind == PIECE_TRIANGLES && p.normal != vec3(0.0) ? boost(p.at, p.normal) / (1.0 + eye.w) : 1.0;
-        if (random_part() * w * w <= share.y * share.y * part)
+        Point p = kind == PIECE_CELLS ? in_cell(piece) : on_triangle(piece);
+        float w = depth_w(p.at), part = kind != PIECE_CELLS && p.normal != vec3(0.0) ? boost(p.at, p.normal) / (1.0 + eye.w) : 1.0;
+        if (random_part() * w * w <= nearest * nearest * part)
             add(p, slot);
+    }
+}
+
+void strew_parts(uint piece, uint slot, uint part)
+{
+    vec2 share = shares[piece]; // expected, nearest
+    for (float left = share.x - PIECE_POINTS_MOST * float(part); left > 0.0; left -= PIECE_POINTS_MOST * float(parts)) {
+        strew(piece, slot, part, min(left, PIECE_POINTS_MOST), share.y);
+        part += parts;
     }
 }
 
@@ -171,5 +180,5 @@ void main()
     if (kind == PIECE_STILL)
         show_still(piece);
     else
-        strew(piece, gl_GlobalInvocationID.z / parts, gl_GlobalInvocationID.z % parts);
+        strew_parts(piece, gl_GlobalInvocationID.z / parts, gl_GlobalInvocationID.z % parts);
 }

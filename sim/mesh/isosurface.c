@@ -11,14 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CORNERS = 8, EDGES = 12, CASES = 256, MOST_TRIANGLES = 5 };
+enum { EDGES = 12 };
 
-/* ---- the cases of a cube; corner bits: 1 x, 2 y, 4 z; edges: 4 axis + the two other bits ---- */
-
-typedef struct CubeCases {
-    uint8_t triangles[CASES];
-    uint8_t edge[CASES][3 * MOST_TRIANGLES]; /* three for each triangle */
-} CubeCases;
+/* ---- the cases of a cube ---- */
 
 /* The edge along `axis` with `corner` as an end. */
 static int edge_at(int corner, int axis)
@@ -73,7 +68,7 @@ static bool fan_is_inside(const int loop[], int length, int apex)
     return true;
 }
 
-static void add_fan(CubeCases *cases, int inside, const int loop[], int length)
+static void add_fan(IsoCases *cases, int inside, const int loop[], int length)
 {
     int apex = 0;
     while (!fan_is_inside(loop, length, apex)) /* every loop has such an apex */
@@ -87,7 +82,7 @@ static void add_fan(CubeCases *cases, int inside, const int loop[], int length)
 }
 
 /* Follows the lines across the faces into closed loops. */
-static void make_case(CubeCases *cases, int inside)
+static void make_case(IsoCases *cases, int inside)
 {
     int next[EDGES], loop[EDGES];
     memset(next, -1, sizeof next);
@@ -105,10 +100,10 @@ static void make_case(CubeCases *cases, int inside)
     }
 }
 
-static void make_cases(CubeCases *cases)
+void isosurface_cases(IsoCases *cases)
 {
     memset(cases, 0, sizeof *cases);
-    for (int inside = 0; inside < CASES; inside++)
+    for (int inside = 0; inside < ISO_CASES; inside++)
         make_case(cases, inside);
 }
 
@@ -235,7 +230,7 @@ static uint32_t cube_vertex(const MarchingCubes *march, size_t at, int edge)
     return march->risen[at + (size_t)first + (second ? y : 0)];
 }
 
-static bool add_cube(MarchingCubes *march, const CubeCases *cases, size_t at, int inside)
+static bool add_cube(MarchingCubes *march, const IsoCases *cases, size_t at, int inside)
 {
     IsoMesh *mesh = march->mesh;
     for (int k = 0; k < cases->triangles[inside]; k++) {
@@ -256,7 +251,7 @@ static int four(const uint8_t *inside, size_t width)
     return inside[0] | inside[1] << 1 | inside[width] << 2 | inside[width + 1] << 3;
 }
 
-static bool add_cubes(MarchingCubes *march, const CubeCases *cases)
+static bool add_cubes(MarchingCubes *march, const IsoCases *cases)
 {
     for (size_t j = 0; j + 1 < march->height; j++)
         for (size_t i = 0; i + 1 < march->width; i++) {
@@ -271,8 +266,8 @@ static bool add_cubes(MarchingCubes *march, const CubeCases *cases)
 
 static bool march_on(MarchingCubes *march)
 {
-    CubeCases cases;
-    make_cases(&cases);
+    IsoCases cases;
+    isosurface_cases(&cases);
     for (size_t k = 1; k < march->depth; k++) {
         next_slice(march, k);
         if (!add_vertices(march, k) || !add_cubes(march, &cases))

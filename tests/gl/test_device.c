@@ -158,12 +158,13 @@ typedef struct Viewed {
     bool fluid;  /* as the colour, which has no range */
     bool glyphs; /* arrows as overlay, with automatic length */
     int crossings;
+    bool gpu;      /* pbsr by the GPU: a wait for the number of its pieces */
     bool software; /* crossings on a software driver only; on hardware the note is a query */
     int waits;     /* on a software driver, for what the CPU writes next */
 } Viewed;
 
 /* Bounds of the fluid make textures of a size known to the CPU. `slabs` sums on the CPU, `slice` too on a
-   software driver. `pbsr` makes layers on the CPU from positions and colour values. */
+   software driver. `pbsr` by the CPU makes layers from positions and colour values. */
 static const Viewed views[] = {
     {.kind = "none"},
     {.kind = "spheres"},
@@ -182,6 +183,7 @@ static const Viewed views[] = {
     {.kind = "slice", .fluid = true, .crossings = 1, .software = true},
     {.kind = "pbsr", .crossings = 2, .waits = 1},
     {.kind = "pbsr", .fluid = true, .crossings = 2, .waits = 1},
+    {.kind = "pbsr", .gpu = true},
 };
 
 static ViewDef view_of(const Viewed *viewed)
@@ -194,6 +196,7 @@ static ViewDef view_of(const Viewed *viewed)
     volume_def(&view)->show = viewed->show;
     splat_def(&view)->level = viewed->level;
     pbsr_def(&view)->repeat = 1;
+    pbsr_def(&view)->method = viewed->gpu ? PBSR_GPU : PBSR_CPU;
     view.color_by = viewed->fluid ? SCALAR_FLUID : SCALAR_SPEED;
     glyphs_def(&view)->show = viewed->glyphs;
     view.range_auto = true;
@@ -225,7 +228,8 @@ static void count_frames(const char *backend, const Viewed *viewed, bool late, O
     counting(false);
     const bool software = gl_renderer_is_software();
     const int wanted =
-        (1 + (!late ? !viewed->fluid + viewed->glyphs : 0) + (software ? viewed->waits : 0)) * FRAMES;
+        (1 + (!late ? !viewed->fluid + viewed->glyphs + viewed->gpu : 0) + (software ? viewed->waits : 0)) *
+        FRAMES;
     const int reads = viewed->software && !software ? 0 : FRAMES * viewed->crossings;
     const int asked = viewed->software && !software && !late ? FRAMES : 0;
     if (crossings != reads || waits < wanted || waits > wanted + FRAMES || queries != asked)

@@ -12,14 +12,6 @@ static const double PI = 3.14159265358979323846, CELLS_MAX = 134217728.0;
 
 enum { FLAT_LAYERS = 4, PART = 16384 };
 
-typedef struct FluidFieldJob {
-    const ParticleBuffers *particles;
-    double cell; /* side of a cell, m */
-    double flat; /* depth of the box in a two-dimensional scene, m; else 0 */
-    int means;
-    Scalar scalar[FLUID_MEANS_MAX]; /* SCALAR_FLUID: the fluid's number; a missing scalar is 0 */
-} FluidFieldJob;
-
 static bool grow_array(void **array, size_t *capacity, size_t count, size_t width)
 {
     if (count <= *capacity && *array)
@@ -128,17 +120,24 @@ static double grid_for(VolumeGrid *grid, const double low[3], const double high[
     return (double)grid->size[0] * grid->size[1] * FLAT_LAYERS;
 }
 
-static void make_grid(FluidField *fluid, const FluidFieldJob *job)
+void fluid_field_set_grid(FluidField *fluid, const FluidFieldJob *job, const double low[3],
+                          const double high[3], double margin, double most)
 {
-    const FieldParticles some = {fluid->count, fluid->position, NULL, job->particles->support_radius};
-    double low[3], high[3], cell = job->cell;
-    if (!field_bounds(&some, low, high))
-        memset(low, 0, sizeof low), memset(high, 0, sizeof high);
-    while (grid_for(&fluid->grid, low, high, some.support, cell, job->flat > 0) > CELLS_MAX)
+    double cell = job->cell;
+    while (grid_for(&fluid->grid, low, high, margin, cell, job->flat > 0) > most)
         cell *= 1.1;
     for (int k = 0; k < 3; k++)
         fluid->side[k] = cell;
     fluid->enlarged = cell / job->cell;
+}
+
+static void make_grid(FluidField *fluid, const FluidFieldJob *job)
+{
+    const FieldParticles some = {fluid->count, fluid->position, NULL, job->particles->support_radius};
+    double low[3], high[3];
+    if (!field_bounds(&some, low, high))
+        memset(low, 0, sizeof low), memset(high, 0, sizeof high);
+    fluid_field_set_grid(fluid, job, low, high, some.support, CELLS_MAX);
 }
 
 /* ---- sums ---- */
@@ -205,6 +204,13 @@ static bool sum(FluidField *fluid, const FluidFieldJob *job, Error *error)
     return true;
 }
 
+void fluid_field_deepen(FluidField *fluid, double flat)
+{
+    fluid->grid.size[2] = FLAT_LAYERS;
+    fluid->side[2] = flat / (FLAT_LAYERS - 1);
+    fluid->grid.corner[2] = -0.5 * FLAT_LAYERS * fluid->side[2];
+}
+
 /* Copies the one layer of values to several, through the depth of the box. */
 static void deepen(FluidField *fluid, double flat)
 {
@@ -214,9 +220,12 @@ static void deepen(FluidField *fluid, double flat)
         for (int m = 0; m < fluid->means; m++)
             memcpy(fluid->mean[m] + slice * (size_t)layer, fluid->mean[m], slice * sizeof(float));
     }
-    fluid->grid.size[2] = FLAT_LAYERS;
-    fluid->side[2] = flat / (FLAT_LAYERS - 1);
-    fluid->grid.corner[2] = -0.5 * FLAT_LAYERS * fluid->side[2];
+    fluid_field_deepen(fluid, flat);
+}
+
+double fluid_field_peak(double flat, double support)
+{
+    return flat > 0 ? 4 / (PI * support * support) : kernel_poly6(0, support);
 }
 
 /* The grid contains all fluid in the box, and at least one empty value around. Cells are enlarged if the
@@ -224,7 +233,7 @@ static void deepen(FluidField *fluid, double flat)
 static bool fluid_field_make(FluidField *fluid, const FluidFieldJob *job, Error *error)
 {
     const double h = job->particles->support_radius;
-    const double scale = job->flat > 0 ? 4 / (PI * h * h) / kernel_poly6(0, h) : 1;
+    const double scale = fluid_field_peak(job->flat, h) / kernel_poly6(0, h);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT); /* a GPU backend may have written the buffers */
     if (!reserve_particles(fluid, job->particles))
         return error_set(error, "no memory to read %zu particles", job->particles->count);
@@ -256,13 +265,19 @@ void fluid_field_particles(FluidField *fluid, const ParticleBuffers *particles, 
     *out = (FieldParticles){fluid->count, fluid->position, fluid->value, particles->support_radius};
 }
 
-/* The mean of a scalar; NULL if there is none. */
-static const float *fluid_field_mean(const FluidField *fluid, Scalar scalar)
+int fluid_field_mean_of(const FluidField *fluid, Scalar scalar)
 {
     for (int m = 0; m < fluid->means; m++)
         if (fluid->scalar[m] == scalar)
-            return fluid->mean[m];
-    return NULL;
+            return m;
+    return -1;
+}
+
+/* The mean of a scalar; NULL if there is none. */
+static const float *fluid_field_mean(const FluidField *fluid, Scalar scalar)
+{
+    const int mean = fluid_field_mean_of(fluid, scalar);
+    return mean >= 0 ? fluid->mean[mean] : NULL;
 }
 
 /* a zeroed struct is allowed */
@@ -282,15 +297,6 @@ static void fluid_field_free(FluidField *fluid)
 
 /* Less F means no fluid: F is 0.5 at a plane surface. Isosurfaces of scalars and slices end there. */
 static const float FLUID_LEAST = 0.5F;
-
-/* Inputs of a layer. */
-typedef struct FluidLayersJob {
-    FluidLayers *out;
-    const PbsrLayer *said;
-    const float *color; /* the mean that gives colours; NULL: none */
-    double spacing, flat, curved, support;
-    bool failed[PBSR_LAYERS_MAX];
-} FluidLayersJob;
 
 /* Interpolates between the eight values around a position (in cells from the first value), leaving out NaN
    values. */
@@ -424,19 +430,26 @@ static bool make_volume(const FluidLayersJob *making, LayerPieces *out)
 
 /* ---- all layers ---- */
 
-static bool make_layer(const FluidLayersJob *making, int number)
+void fluid_layer_describe(LayerPieces *pieces, const FluidField *fluid, const FluidFieldJob *job,
+                          const PbsrDef *def, const PbsrLayer *said, int number)
+{
+    pieces->number = (unsigned)number;
+    pieces->cells = said->of == PBSR_VOLUME;
+    pieces->density = point_density_of_opacity(said->opacity, pieces->cells ? job->particles->spacing : 1);
+    pieces->curved = def->curved;
+    pieces->support = job->particles->support_radius;
+    memcpy(pieces->cell, fluid->side, sizeof pieces->cell);
+    pieces->slab = job->flat > 0;
+    if (pieces->slab)
+        pieces->cell[2] = job->flat;
+}
+
+bool fluid_layer_make(const FluidLayersJob *making, int number)
 {
     const PbsrLayer *said = &making->said[number];
     const FluidField *fluid = &making->out->fluid;
     LayerPieces *out = &making->out->layers[number];
-    out->number = (unsigned)number;
-    out->density = point_density_of_opacity(said->opacity, said->of == PBSR_VOLUME ? making->spacing : 1);
-    out->curved = making->curved;
-    out->support = making->support;
-    memcpy(out->cell, fluid->side, sizeof out->cell);
-    out->slab = making->flat > 0;
-    if (out->slab)
-        out->cell[2] = making->flat;
+    fluid_layer_describe(out, fluid, making->field, making->def, said, number);
     if (pbsr_is_rigid(said) || said->of == PBSR_SOLIDS)
         return layer_reserve(out, 0, 0);
     switch (said->of) {
@@ -458,7 +471,7 @@ static void make_some(void *context, size_t begin, size_t end)
 {
     FluidLayersJob *making = context;
     for (size_t i = begin; i < end; i++)
-        making->failed[i] = !make_layer(making, (int)i);
+        making->failed[i] = !fluid_layer_make(making, (int)i);
 }
 
 static void want(FluidFieldJob *job, Scalar scalar)
@@ -469,37 +482,41 @@ static void want(FluidFieldJob *job, Scalar scalar)
     job->scalar[job->means++] = scalar;
 }
 
-bool fluid_layers_make(FluidLayers *layers, const PbsrDef *def, const ParticleBuffers *particles,
-                       Scalar color, double flat, Error *error)
+void fluid_field_job(FluidFieldJob *job, const PbsrDef *def, const ParticleBuffers *particles, Scalar color,
+                     double flat)
 {
     PbsrLayer said[PBSR_LAYERS_MAX];
     const int count = pbsr_layers(def, said);
-    bool colored = false, made = true;
-    FluidFieldJob job = {particles, def->cell * particles->spacing, flat, 0, {0}};
+    *job = (FluidFieldJob){
+        .particles = particles, .cell = def->cell * particles->spacing, .flat = flat, .color = color};
     for (int i = 0; i < count; i++) {
-        colored =
-            colored || (!pbsr_has_color(&said[i]) && !pbsr_is_of_file(&said[i]) && said[i].of != PBSR_SOLIDS);
+        job->colored |= !pbsr_has_color(&said[i]) && !pbsr_is_of_file(&said[i]) && said[i].of != PBSR_SOLIDS;
         if (said[i].of >= PBSR_SCALARS && !pbsr_is_rigid(&said[i]))
-            want(&job, (Scalar)(said[i].of - PBSR_SCALARS));
+            want(job, (Scalar)(said[i].of - PBSR_SCALARS));
     }
-    if (colored)
-        want(&job, color);
+    if (job->colored)
+        want(job, color);
+}
+
+bool fluid_layers_make(FluidLayers *layers, const PbsrDef *def, const FluidFieldJob *job, Error *error)
+{
+    PbsrLayer said[PBSR_LAYERS_MAX];
+    const int count = pbsr_layers(def, said);
+    bool made = true;
     layers->count = 0;
-    if (!fluid_field_make(&layers->fluid, &job, error))
+    if (!fluid_field_make(&layers->fluid, job, error))
         return false;
     FluidLayersJob making = {.out = layers,
                              .said = said,
-                             .color = colored ? fluid_field_mean(&layers->fluid, color) : NULL,
-                             .spacing = particles->spacing,
-                             .flat = flat,
-                             .curved = def->curved,
-                             .support = particles->support_radius};
+                             .def = def,
+                             .field = job,
+                             .color = job->colored ? fluid_field_mean(&layers->fluid, job->color) : NULL};
     layers->color = making.color;
     parallel_ranges(parallel_processors(), (size_t)count, 1, make_some, &making);
     for (int i = 0; i < count; i++)
         made = made && !making.failed[i];
     layers->count = made ? count : 0;
-    return made || error_set(error, "no memory for the layers of %zu particles", particles->count);
+    return made || error_set(error, "no memory for the layers of %zu particles", job->particles->count);
 }
 
 float fluid_layers_value(const FluidLayers *layers, const float *values, const double place[3])

@@ -62,6 +62,8 @@ static const char *part_from(const TextBuffer *words)
 /* True if no part of the layer is in the fluid, or the level is reached nowhere. */
 static bool is_missing(const LayerPieces *layer, const RigidLayer *rigid)
 {
+    if (layer->on_gpu && layer->there)
+        return false;
     for (size_t i = 0; i < layer->point_count; i++)
         if (layer->point[i].inside >= 0)
             return false;

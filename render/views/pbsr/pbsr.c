@@ -49,6 +49,7 @@ typedef struct PbsrView {
     SolidLayers solids;
     Average average;
     Projector project; /* zero if the CPU projects */
+    GpuFluid fluid;    /* likewise */
     SurfaceGpu walks;  /* zero if the CPU projects; makes the points of rigid layers */
     ShadowCaster casting;
     LayersFrom made;
@@ -76,6 +77,7 @@ static void destroy(void *state)
     if (view->project.program)
         surface_gpu_destroy(&view->walks);
     projector_destroy(&view->project);
+    gpu_fluid_destroy(&view->fluid);
     shadow_caster_destroy(&view->casting);
     free(view);
 }
@@ -105,10 +107,10 @@ static bool projects_on_cpu(const PbsrDef *def)
     return def->method == PBSR_CPU || (def->method == PBSR_AUTO && gl_renderer_is_software());
 }
 
-/* The GPU that projects also makes the kept points. */
+/* The GPU that projects also makes the fluid's layers and the kept points. */
 static bool create_gpu(PbsrView *view, Error *error)
 {
-    if (!projector_create(&view->project, error))
+    if (!projector_create(&view->project, error) || !gpu_fluid_create(&view->fluid, error))
         return false;
     surface_gpu_create(&view->walks);
     for (int i = 0; i < PBSR_LAYERS_MAX; i++)
@@ -146,6 +148,11 @@ static bool same_bytes(const void *a, const void *b, size_t size)
     return memcmp(a, b, size) == 0;
 }
 
+static Scalar color_of(const Frame *frame)
+{
+    return frame->colors.by_fluid ? SCALAR_FLUID : view_color_by(frame->def);
+}
+
 static void layers_from(LayersFrom *from, const ParticleBuffers *particles, const Frame *frame)
 {
     memset(from, 0, sizeof *from);
@@ -163,7 +170,7 @@ static void layers_from(LayersFrom *from, const ParticleBuffers *particles, cons
     from->count = particles->count;
     from->buffer = particles->position.buffer;
     from->offset = particles->position.offset;
-    from->color = frame->colors.by_fluid ? SCALAR_FLUID : view_color_by(frame->def);
+    from->color = color_of(frame);
     memcpy(from->box_size, particles->box_size, sizeof from->box_size);
     from->spacing = particles->spacing;
     from->support = particles->support_radius;
@@ -252,7 +259,12 @@ static bool see_layers(PbsrView *view, const ParticleBuffers *particles, const P
 {
     PbsrLayer said[PBSR_LAYERS_MAX];
     const int count = pbsr_layers(def, said);
+    FluidFieldJob job;
     hurry(view, def, frame);
+    fluid_field_job(&job, def, particles, color_of(frame), frame->slab);
+    if (view->project.program && !gpu_fluid_see(&view->fluid, &view->layers, def, &job, &view->project,
+                                                &view->average.sight, frame->stale != NULL, &view->trouble))
+        return false;
     for (int i = 0; i < count; i++) {
         if (!layer_make_shares(&view->layers.layers[i], &view->average.sight))
             return error_set(&view->trouble, "no memory for the points of a layer");
@@ -273,11 +285,15 @@ static bool see_layers(PbsrView *view, const ParticleBuffers *particles, const P
     return true;
 }
 
-static bool make_layers(PbsrView *view, const ParticleBuffers *particles, const Frame *frame, Scalar color)
+static bool make_layers(PbsrView *view, const ParticleBuffers *particles, const Frame *frame)
 {
     PbsrLayer said[PBSR_LAYERS_MAX];
     const PbsrDef *def = pbsr_def(frame->def);
-    if (!fluid_layers_make(&view->layers, def, particles, color, frame->slab, &view->trouble))
+    FluidFieldJob job;
+    fluid_field_job(&job, def, particles, color_of(frame), frame->slab);
+    if (view->project.program ? !gpu_fluid_make(&view->fluid, &view->layers, def, &job, frame->neighbourhood,
+                                                view->project.block_bytes, &view->trouble)
+                              : !fluid_layers_make(&view->layers, def, &job, &view->trouble))
         return false;
     for (int i = 0; i < pbsr_layers(def, said); i++)
         fluid_walk_begin(&view->steps[i], &said[i], &view->layers, particles, frame->slab,
@@ -294,11 +310,12 @@ static bool follow(PbsrView *view, const ParticleBuffers *particles, const Frame
     layers_from(&layers, particles, frame);
     picture_from(&picture, &layers, frame);
     const bool same_layers = view->valid && same_bytes(&layers, &view->made, sizeof layers);
-    if (view->valid && same_bytes(&picture, &view->drawn, sizeof picture) && !layers_wait(view))
+    if (view->valid && same_bytes(&picture, &view->drawn, sizeof picture) && !layers_wait(view) &&
+        !gpu_fluid_lacks_room(&view->fluid, &view->layers, pbsr_def(frame->def)))
         return true;
     view->valid = false;
     find_looks(pbsr_def(frame->def), frame->world, view->project.program != 0, looks);
-    if ((!same_layers && !make_layers(view, particles, frame, layers.color)) ||
+    if ((!same_layers && !make_layers(view, particles, frame)) ||
         !average_begin(&view->average, frame, looks, leaves_box(pbsr_def(frame->def), particles->box_size),
                        &view->trouble) ||
         !see_layers(view, particles, pbsr_def(frame->def), frame))
@@ -452,6 +469,21 @@ static void find_lacks(PbsrView *view, const Frame *frame)
     view->lacked = layers_describe_missing(&drawn, view->lack, sizeof view->lack);
 }
 
+/* The GPU's pieces are read back for this alone. */
+static bool count_points(PbsrView *view, const Frame *frame)
+{
+    bool counted = true;
+    for (int i = 0; counted && i < view->layers.count; i++)
+        if (view->layers.layers[i].on_gpu)
+            counted = gpu_fluid_read(&view->fluid, &view->project, i, &view->layers.layers[i]);
+    counted = counted && count_set_points(&view->layers, view->steps, view->rigid, &view->solids,
+                                          &view->average.sight, view->added, frame);
+    for (int i = 0; i < view->layers.count; i++)
+        if (view->layers.layers[i].on_gpu)
+            (void)layer_reserve(&view->layers.layers[i], 0, 0); /* empty again */
+    return counted;
+}
+
 static void draw(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
     PbsrView *view = state;
@@ -467,9 +499,7 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     add_wanted(view, begun, frame);
     if (!frame->counts)
         view->added = view->average.count - before;
-    view->uncounted =
-        frame->counts && !count_set_points(&view->layers, view->steps, view->rigid, &view->solids,
-                                           &view->average.sight, view->added, frame);
+    view->uncounted = frame->counts && !count_points(view, frame);
     find_lacks(view, frame);
     average_show_back(&view->average, frame);
 }
@@ -492,7 +522,8 @@ static ViewProbing probing(const void *state, const ViewDef *def)
 static bool unfinished(const void *state)
 {
     const PbsrView *view = state;
-    return view->valid && (view->average.count < view->wanted || layers_wait(view));
+    return view->valid &&
+           (view->average.count < view->wanted || layers_wait(view) || view->fluid.found.fence);
 }
 
 static const char *missing(const void *state)
@@ -544,6 +575,7 @@ static void show(const ViewDef *def, Frame *frame)
 static void want(const ViewDef *def, ParticleWants *wants)
 {
     wants->scalars |= pbsr_scalars(pbsr_def(def));
+    wants->neighbours |= pbsr_def(def)->method != PBSR_CPU;
 }
 
 const ViewKind view_pbsr = {

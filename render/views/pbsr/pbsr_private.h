@@ -8,6 +8,7 @@
 
 #include "render/frame/frame.h"
 #include "render/frame/view.h"
+#include "render/particles/particles.h"
 #include "sim/gpu/particle_buffers.h"
 #include "sim/gpu/points/points_gpu.h"
 #include "sim/points/points.h"
@@ -160,6 +161,10 @@ typedef struct LayerShare {
     float nearest;  /* m; a point at depth w is kept with the probability (nearest / w)^2 */
 } LayerShare;
 
+/* Largest number of points of a piece and set. A triangle with more fills the picture many times over, from a
+   tenth of a pixel's side away. */
+#define EXPECTED_MOST 4e6F
+
 /* Zero-initialise. Owns its arrays. */
 typedef struct LayerPieces {
     size_t point_count, triangle_count; /* without triangles, points are centres of cells */
@@ -177,14 +182,21 @@ typedef struct LayerPieces {
                           proportional to larger radii */
     double beyond;     /* for the last sight: needed points divided by drawn points on the largest piece;
                           up to 1: no piece is too large */
+    size_t on_gpu;     /* pieces that the Projector's buffers have room for, made by GpuFluid; 0: the arrays
+                          have the pieces */
+    bool cells;        /* the GPU's pieces are cells */
+    float largest;     /* expected points of the GPU's largest piece, as known, if beyond a few; else 0 */
+    bool there;        /* some part of the GPU's pieces is in the fluid, by the last answer */
 } LayerPieces;
 
 /* Makes room for points and triangles; old contents are lost. Returns false if memory is short. */
 bool layer_reserve(LayerPieces *layer, size_t points, size_t triangles);
 void layer_free(LayerPieces *layer); /* a zeroed struct is allowed */
 
-/* Computes the shares for a sight; the same bits for any number of threads. Returns false if memory is
-   short. */
+bool layer_reserve_shares(LayerPieces *layer, size_t pieces); /* likewise */
+
+/* Computes the shares for a sight, unless the GPU made the pieces; the same bits for any number of threads.
+   Returns false if memory is short. */
 bool layer_make_shares(LayerPieces *layer, const SetSight *sight);
 
 /* Drawn points divided by the points that the opacity needs, on the largest piece; at most 1. */
@@ -256,8 +268,9 @@ void average_show_back(const Average *average, const Frame *frame);
 void average_show_front(const Average *average, const Frame *frame);
 
 /* The field F = sum V W of a fluid (include/slosh/mesh.h) and means of scalars on a grid. Computed on the CPU
-   from particles read back; on a software driver the particles are in CPU memory. In a two-dimensional
-   scene F is the plane's field, constant through the depth of the box. */
+   from particles read back, where the CPU projects: on a software driver the particles are in CPU memory.
+   Else by GpuFluid, without arrays here. In a two-dimensional scene F is the plane's field, constant through
+   the depth of the box. */
 
 enum { FLUID_MEANS_MAX = 9 };
 
@@ -296,11 +309,55 @@ typedef struct FluidLayers {
     LayerPieces layers[PBSR_LAYERS_MAX];
 } FluidLayers;
 
-/* `color`: the scalar of the colours, SCALAR_FLUID: the fluid's number. `flat`: depth of the box in a
-   two-dimensional scene, m; else 0. With `flat`, a layer is the region at or above the level, as deep as
-   the box. Returns false if memory is short: then there are no layers. */
-bool fluid_layers_make(FluidLayers *layers, const PbsrDef *def, const ParticleBuffers *particles,
-                       Scalar color, double flat, Error *error);
+/* The inputs of a fluid's field and layers. */
+typedef struct FluidFieldJob {
+    const ParticleBuffers *particles;
+    double cell; /* side of a cell, m */
+    double flat; /* depth of the box in a two-dimensional scene, m; else 0 */
+    int means;
+    Scalar scalar[FLUID_MEANS_MAX]; /* SCALAR_FLUID: the fluid's number; a missing scalar is 0 */
+    bool colored;                   /* a layer has the colours of `color` */
+    Scalar color;
+} FluidFieldJob;
+
+/* The inputs for a def's layers. `color`: the scalar of the colours. */
+void fluid_field_job(FluidFieldJob *job, const PbsrDef *def, const ParticleBuffers *particles, Scalar color,
+                     double flat);
+
+/* Sets grid, sides of a cell and `enlarged`, for fluid between `low` and `high` (m) and `margin` around. A
+   grid of more than `most` cells gets larger cells. */
+void fluid_field_set_grid(FluidField *fluid, const FluidFieldJob *job, const double low[3],
+                          const double high[3], double margin, double most);
+
+/* Makes the grid of one layer of values as deep as the box. */
+void fluid_field_deepen(FluidField *fluid, double flat);
+
+/* Factor of the kernel W at distance 0, in the plane and in three dimensions: poly6. */
+double fluid_field_peak(double flat, double support);
+
+/* The number of the mean of a scalar; -1: none. */
+int fluid_field_mean_of(const FluidField *fluid, Scalar scalar);
+
+/* Sets all of a layer's pieces but the pieces. */
+void fluid_layer_describe(LayerPieces *pieces, const FluidField *fluid, const FluidFieldJob *job,
+                          const PbsrDef *def, const PbsrLayer *said, int number);
+
+/* Inputs of the CPU's layers. */
+typedef struct FluidLayersJob {
+    FluidLayers *out;
+    const PbsrLayer *said;
+    const PbsrDef *def;
+    const FluidFieldJob *field;
+    const float *color; /* the mean that gives colours; NULL: none */
+    bool failed[PBSR_LAYERS_MAX];
+} FluidLayersJob;
+
+/* Makes a layer from the field in `making->out`. Returns false if memory is short. */
+bool fluid_layer_make(const FluidLayersJob *making, int number);
+
+/* In two dimensions a layer is the region at or above the level, as deep as the box. Returns false if memory
+   is short: then there are no layers. */
+bool fluid_layers_make(FluidLayers *layers, const PbsrDef *def, const FluidFieldJob *job, Error *error);
 
 /* Interpolates the field or a mean at a position in the box, m. */
 float fluid_layers_value(const FluidLayers *layers, const float *values, const double place[3]);
@@ -494,10 +551,12 @@ void solid_layers_free(SolidLayers *layers); /* a zeroed struct is allowed */
    atomics. As exact as the CPU (layer_project), with other random numbers. Needs a current
    OpenGL 4.5 core context. */
 
+enum { PIECES_POINTS, PIECES_CORNERS, PIECES_SHARES, PIECES_STILL, PIECES_BUFFERS };
+
 /* GPU data of a layer: buffers of points, corners, shares, and kept points. */
 typedef struct ProjectorLayer {
-    unsigned buffers[4];
-    unsigned parts; /* invocations per piece, which share the piece's points */
+    unsigned buffers[PIECES_BUFFERS];
+    float largest; /* expected points of the largest uploaded piece */
 } ProjectorLayer;
 
 /* Zero-initialise. */
@@ -513,8 +572,25 @@ typedef struct Projector {
 bool projector_create(Projector *project, Error *error);
 void projector_destroy(Projector *project); /* a zeroed struct is allowed */
 
-/* Uploads the present data of a layer and its kept points. Returns false, with the reason, if the driver
-   has no memory, or a shader cannot see so many corners at once. */
+/* A part of a layer's pieces that a shader can see at once. */
+typedef struct PieceRange {
+    size_t first, count;
+} PieceRange;
+
+/* Binds the points and shares of the next range of `pieces` pieces with `bytes` of points each. Sets
+   PIECE_FIRST_AT and PIECE_COUNT_AT of the program in use. Begin with a zeroed range. Returns false after
+   the last. */
+bool projector_next_range(const Projector *project, int index, size_t bytes, size_t pieces,
+                          PieceRange *range);
+
+/* Bytes of points of a piece made on the GPU. */
+size_t layer_piece_bytes(const LayerPieces *layer);
+
+/* Makes room for layer->on_gpu pieces. Returns false, with the reason, if the driver has no memory. */
+bool projector_reserve(const Projector *project, int index, const LayerPieces *layer, Error *error);
+
+/* Uploads the present data of a layer, unless the GPU made the pieces, and its kept points. Returns false,
+   with the reason, if the driver has no memory, or a shader cannot see so many corners at once. */
 bool projector_upload(Projector *project, int index, const LayerPieces *layer, const RigidLayer *rigid,
                       Error *error);
 
@@ -532,6 +608,54 @@ typedef struct ProjectorSets {
 } ProjectorSets;
 
 void projector_run(Projector *project, const Average *average, const ProjectorSets *sets);
+
+/* The fluid's field and the pieces of the fluid's layers, on the GPU: as fluid_layers_make and
+   layer_make_shares, on a grid that stands in the box. The pieces are in a Projector's buffers. Nothing is
+   read back but PiecesFound, which sizes buffers and texts. Needs a current OpenGL 4.5 core context. */
+
+/* Found by passes, per layer; words as in shaders/pbsr/pbsr_bindings.h. */
+typedef struct PiecesFound {
+    uint32_t pieces[PBSR_LAYERS_MAX];
+    uint32_t largest[PBSR_LAYERS_MAX]; /* bits of LayerPieces.largest */
+    uint32_t there[PBSR_LAYERS_MAX];
+} PiecesFound;
+
+/* Zero-initialise. */
+typedef struct GpuFluid {
+    unsigned sum, count, emit, share; /* programs; `sum`: 0 if the CPU projects */
+    PrefixSums sums;
+    unsigned cases, none;                      /* buffers: cases of a cube; replaces a missing scalar */
+    unsigned field, starts;                    /* buffers: F; number of pieces before each cell */
+    unsigned mean[FLUID_MEANS_MAX];            /* buffers */
+    size_t cells, mean_cells[FLUID_MEANS_MAX]; /* capacities */
+    Mailbox found;
+    PiecesFound answer; /* the last */
+    bool known;         /* there is an answer */
+    unsigned lacking;   /* layers, as bits, whose room is less than the answer */
+    bool made;          /* the pieces are of the present field */
+} GpuFluid;
+
+/* Returns false if a shader does not compile or memory is short; call gpu_fluid_destroy in either case. */
+bool gpu_fluid_create(GpuFluid *gpu, Error *error);
+void gpu_fluid_destroy(GpuFluid *gpu); /* a zeroed struct is allowed */
+
+/* Makes the field and its means, and describes the layers. `block_bytes`: Projector. Returns false if the
+   driver has no memory. */
+bool gpu_fluid_make(GpuFluid *gpu, FluidLayers *layers, const PbsrDef *def, const FluidFieldJob *job,
+                    Neighbourhood *near, int64_t block_bytes, Error *error);
+
+/* Makes the pieces if the field is new, and the shares of a look. Waits for PiecesFound, unless `late` and a
+   look has been answered before: then numbers are of an earlier look. Returns false if the driver has no
+   memory. */
+bool gpu_fluid_see(GpuFluid *gpu, FluidLayers *layers, const PbsrDef *def, const FluidFieldJob *job,
+                   const Projector *project, const SetSight *sight, bool late, Error *error);
+
+/* Takes an answer that has arrived. True if the last look left out pieces: gpu_fluid_see makes room. */
+bool gpu_fluid_lacks_room(GpuFluid *gpu, FluidLayers *layers, const PbsrDef *def);
+
+/* Reads the pieces of a layer back into its arrays, for tests and counts. Returns false if memory is short.
+ */
+bool gpu_fluid_read(const GpuFluid *gpu, const Projector *project, int index, LayerPieces *layer);
 
 /* Counts the points of a picture of the view pbsr, for measurements. */
 

@@ -6,19 +6,17 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { POINTS, CORNERS, SHARES, STILL, BUFFERS };
-
 /* Each block needs a buffer, even if the shader reads nothing. */
 static const float nothing[4] = {0};
 
 bool projector_create(Projector *project, Error *error)
 {
     static const char *const stages[] = {"pbsr/project.comp", NULL};
-    static const char *const labels[BUFFERS] = {"layer points", "layer corners", "layer shares",
-                                                "points that stay"};
+    static const char *const labels[PIECES_BUFFERS] = {"layer points", "layer corners", "layer shares",
+                                                       "points that stay"};
     for (int i = 0; i < PBSR_LAYERS_MAX; i++) {
-        glCreateBuffers(BUFFERS, project->layers[i].buffers);
-        for (int k = 0; k < BUFFERS; k++) {
+        glCreateBuffers(PIECES_BUFFERS, project->layers[i].buffers);
+        for (int k = 0; k < PIECES_BUFFERS; k++) {
             glObjectLabel(GL_BUFFER, project->layers[i].buffers[k], -1, labels[k]);
             glNamedBufferData(project->layers[i].buffers[k], sizeof nothing, nothing, GL_STREAM_DRAW);
         }
@@ -34,7 +32,7 @@ bool projector_create(Projector *project, Error *error)
 void projector_destroy(Projector *project)
 {
     for (int i = 0; i < PBSR_LAYERS_MAX; i++)
-        glDeleteBuffers(BUFFERS, project->layers[i].buffers);
+        glDeleteBuffers(PIECES_BUFFERS, project->layers[i].buffers);
     glDeleteBuffers(SOLIDS_MAX, project->solids);
     glDeleteProgram(project->program);
 }
@@ -45,20 +43,60 @@ static void send(unsigned buffer, const void *data, size_t bytes)
         glNamedBufferData(buffer, (GLsizeiptr)bytes, data, GL_STREAM_DRAW);
 }
 
-/* Number of invocations that share the points of the largest piece. */
-static unsigned parts_of(const LayerPieces *layer, size_t shares)
-{
-    float most = 0;
-    for (size_t i = 0; i < shares; i++)
-        most = fmaxf(most, layer->share[i].expected);
-    return most > (float)PIECE_POINTS_MOST ? (unsigned)ceilf(most / (float)PIECE_POINTS_MOST) : 1;
-}
-
 static bool is_there(Error *error)
 {
     return gl_errors_take(GL_OUT_OF_MEMORY) == 0 ||
            error_set(error,
                      "the GPU has no memory for the points of a layer; view.pbsr.method: cpu needs none");
+}
+
+size_t layer_piece_bytes(const LayerPieces *layer)
+{
+    return (layer->cells ? 1 : 3) * sizeof(LayerPoint);
+}
+
+bool projector_reserve(const Projector *project, int index, const LayerPieces *layer, Error *error)
+{
+    const unsigned *to = project->layers[index].buffers;
+    glNamedBufferData(to[PIECES_POINTS], (GLsizeiptr)(layer->on_gpu * layer_piece_bytes(layer)), NULL,
+                      GL_DYNAMIC_COPY);
+    glNamedBufferData(to[PIECES_SHARES], (GLsizeiptr)(layer->on_gpu * sizeof(LayerShare)), NULL,
+                      GL_DYNAMIC_COPY);
+    return is_there(error);
+}
+
+/* Offsets in both buffers are multiples of 256 bytes, as bindings need. */
+bool projector_next_range(const Projector *project, int index, size_t bytes, size_t pieces, PieceRange *range)
+{
+    enum { STEP = 32 };
+    const unsigned *from = project->layers[index].buffers;
+    const size_t share = sizeof(LayerShare), most = (size_t)project->block_bytes / (STEP * bytes) * STEP;
+    range->first += range->count;
+    range->count = pieces - range->first < most ? pieces - range->first : most;
+    if (range->count == 0)
+        return false;
+    glBindBufferRange(GL_SHADER_STORAGE_BUFFER, PIECE_POINTS_STORAGE, from[PIECES_POINTS],
+                      (GLintptr)(range->first * bytes), (GLsizeiptr)(range->count * bytes));
+    glBindBufferRange(GL_SHADER_STORAGE_BUFFER, PIECE_SHARES_STORAGE, from[PIECES_SHARES],
+                      (GLintptr)(range->first * share), (GLsizeiptr)(range->count * share));
+    glUniform1ui(PIECE_FIRST_AT, (GLuint)range->first);
+    glUniform1ui(PIECE_COUNT_AT, (GLuint)range->count);
+    return true;
+}
+
+static float largest_of(const LayerPieces *layer, size_t shares)
+{
+    float largest = layer->largest;
+    for (size_t i = 0; !layer->on_gpu && i < shares; i++)
+        largest = fmaxf(largest, layer->share[i].expected);
+    return largest;
+}
+
+static void send_pieces(const unsigned *to, const LayerPieces *layer, size_t shares)
+{
+    send(to[PIECES_POINTS], layer->point, layer->point_count * sizeof *layer->point);
+    send(to[PIECES_CORNERS], layer->triangle, layer->triangle_count * sizeof *layer->triangle);
+    send(to[PIECES_SHARES], layer->share, shares * sizeof *layer->share);
 }
 
 bool projector_upload(Projector *project, int index, const LayerPieces *layer, const RigidLayer *rigid,
@@ -73,12 +111,11 @@ bool projector_upload(Projector *project, int index, const LayerPieces *layer, c
             "a layer's corners are %.3g MB, and a shader sees %.3g MB here; view.pbsr.method: cpu, or "
             "a larger view.pbsr.cell",
             (double)corners / 1e6, (double)project->block_bytes / 1e6);
-    send(to[POINTS], layer->point, layer->point_count * sizeof *layer->point);
-    send(to[CORNERS], layer->triangle, layer->triangle_count * sizeof *layer->triangle);
-    send(to[SHARES], layer->share, shares * sizeof *layer->share);
-    project->layers[index].parts = parts_of(layer, shares);
+    if (!layer->on_gpu)
+        send_pieces(to, layer, shares);
+    project->layers[index].largest = largest_of(layer, shares);
     if (project->rigid[index] != rigid->made && !rigid->buffer)
-        send(to[STILL], rigid->points.point, rigid->points.count * sizeof *rigid->points.point);
+        send(to[PIECES_STILL], rigid->points.point, rigid->points.count * sizeof *rigid->points.point);
     project->rigid[index] = rigid->made;
     return is_there(error);
 }
@@ -89,6 +126,13 @@ bool projector_upload_solid(Projector *project, int index, const RigidLayer *rig
         send(project->solids[index], rigid->points.point, rigid->points.count * sizeof *rigid->points.point);
     project->solid_made[index] = rigid->made;
     return is_there(error);
+}
+
+/* Number of invocations that share the points of the largest piece. */
+static unsigned parts_of(float largest)
+{
+    const float parts = ceilf(fminf(largest, EXPECTED_MOST) / (float)PIECE_POINTS_MOST);
+    return (unsigned)fmaxf(1, fminf(parts, PIECE_PARTS_MOST));
 }
 
 /* In rows, since an axis may be limited to 65,535 groups. */
@@ -108,41 +152,28 @@ static void look(const SetSight *sight)
     glUniform2f(PIECE_RANGE_AT, sight->low, sight->scale);
 }
 
-/* Dispatches as many cells at a time as a block can hold points; offsets in both buffers are then
-   multiples of 256 bytes, as bindings need. */
-static void dispatch_cells(const Projector *project, const ProjectorLayer *from, size_t count, int sets)
-{
-    enum { STEP = 32 };
-    const size_t point = sizeof(LayerPoint), share = sizeof(LayerShare),
-                 most = (size_t)project->block_bytes / (STEP * point) * STEP;
-    for (size_t first = 0; first < count; first += most) {
-        const size_t some = count - first < most ? count - first : most;
-        glBindBufferRange(GL_SHADER_STORAGE_BUFFER, PIECE_POINTS_STORAGE, from->buffers[POINTS],
-                          (GLintptr)(first * point), (GLsizeiptr)(some * point));
-        glBindBufferRange(GL_SHADER_STORAGE_BUFFER, PIECE_SHARES_STORAGE, from->buffers[SHARES],
-                          (GLintptr)(first * share), (GLsizeiptr)(some * share));
-        glUniform1ui(PIECE_FIRST_AT, (GLuint)first);
-        dispatch(some, sets);
-    }
-}
-
 static void project_layer(const Projector *project, int index, const LayerPieces *layer,
                           const SetSight *sight, const ProjectorSets *sets)
 {
-    const ProjectorLayer *from = &project->layers[index];
+    const bool corners = !layer->on_gpu && layer->triangle_count > 0;
+    const bool cells = layer->on_gpu ? layer->cells : !corners;
+    const size_t pieces = layer->on_gpu ? layer->on_gpu : layer->point_count;
+    const unsigned parts = parts_of(project->layers[index].largest);
+    PieceRange range = {0};
     look(sight);
-    const bool cells = layer->triangle_count == 0;
-    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, PIECE_POINTS_STORAGE, 3, from->buffers);
-    glUniform1ui(PIECE_KIND_AT, cells ? PIECE_CELLS : PIECE_TRIANGLES);
+    glUniform1ui(PIECE_PARTS_AT, parts);
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, PIECE_POINTS_STORAGE, 3, project->layers[index].buffers);
+    glUniform1ui(PIECE_KIND_AT, cells ? PIECE_CELLS : corners ? PIECE_TRIANGLES : PIECE_LOOSE);
     glUniform3ui(PIECE_SET_AT, (GLuint)sets->first, (GLuint)sets->count, 1);
     glUniform4f(PIECE_CELL_AT, (GLfloat)layer->cell[0], (GLfloat)layer->cell[1], (GLfloat)layer->cell[2],
                 layer->slab ? 1 : 0);
-    glUniform1ui(PIECE_PARTS_AT, from->parts);
     glUniform1ui(PIECE_FIRST_AT, 0);
-    if (cells)
-        dispatch_cells(project, from, layer->point_count, sets->count * (int)from->parts);
-    else
-        dispatch(layer->triangle_count, sets->count * (int)from->parts);
+    if (corners)
+        dispatch(layer->triangle_count, sets->count * (int)parts);
+    while (!corners &&
+           projector_next_range(project, index, cells ? sizeof(LayerPoint) : 3 * sizeof(LayerPoint), pieces,
+                                &range))
+        dispatch(range.count, sets->count * (int)parts);
 }
 
 /* Dispatches as many points at a time as a block can hold; offsets are then multiples of 256 bytes, as
@@ -198,8 +229,8 @@ void projector_run(Projector *project, const Average *average, const ProjectorSe
             glUniform1ui(PIECE_LAYER_AT, (GLuint)i);
             project_layer(project, i, layer_pieces(&sets->rigid[i], &sets->layers[i]),
                           layer_pieces_sight(&sets->rigid[i], &average->sight), sets);
-            project_still(project, &sets->rigid[i], project->layers[i].buffers[STILL], average->sight.pixel,
-                          sets);
+            project_still(project, &sets->rigid[i], project->layers[i].buffers[PIECES_STILL],
+                          average->sight.pixel, sets);
         }
         for (int i = 0; i < sets->solids->count; i++) {
             glUniform1ui(PIECE_LAYER_AT, sets->solids->numbers[i]);

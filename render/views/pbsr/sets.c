@@ -128,9 +128,6 @@ void set_image_add(const SetImage *image, const SetSight *sight, const LayerPoin
 
 enum { SHARES_PART = 4096 };
 
-/* A triangle with more points fills the picture many times over, from a tenth of a pixel's side away. */
-static const float EXPECTED_MOST = 4e6F;
-
 /* For pieces that extend from the eye outwards: density as at this fraction of the largest depth, at most. */
 static const float NEAREST_PART = 0.25F;
 
@@ -153,6 +150,11 @@ bool layer_reserve(LayerPieces *layer, size_t points, size_t triangles)
     return grow_array((void **)&layer->point, &layer->point_capacity, points, sizeof *layer->point) &&
            grow_array((void **)&layer->triangle, &layer->triangle_capacity, triangles,
                       sizeof *layer->triangle);
+}
+
+bool layer_reserve_shares(LayerPieces *layer, size_t pieces)
+{
+    return grow_array((void **)&layer->share, &layer->share_capacity, pieces, sizeof *layer->share);
 }
 
 void layer_free(LayerPieces *layer)
@@ -349,8 +351,10 @@ bool layer_make_shares(LayerPieces *layer, const SetSight *sight)
     const bool cells = layer->triangle_count == 0;
     const size_t count = cells ? layer->point_count : layer->triangle_count;
     ShareJob sharing = {.layer = layer, .sight = sight};
+    if (layer->on_gpu)
+        return true;
     layer->beyond = 0;
-    if (!grow_array((void **)&layer->share, &layer->share_capacity, count, sizeof *layer->share))
+    if (!layer_reserve_shares(layer, count))
         return false;
     parallel_ranges(parallel_processors(), count, SHARES_PART, cells ? share_cells : share_triangles,
                     &sharing);
