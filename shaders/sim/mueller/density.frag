@@ -16,8 +16,8 @@ void meet(int j) { sum += weight(here - of_particle(position, j).xyz); }
 void meet_images(int j)
 {
     vec3 x = of_particle(position, j).xyz;
-    for (int k = 0; k < image_count; k++)
-        sum += weight(images[k].x - x);
+    for (uint left = images; left != 0u; left &= left - 1u)
+        sum += weight(first_image(left).x - x);
 }
 
 void main()

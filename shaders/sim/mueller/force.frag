@@ -22,9 +22,10 @@ float viscosity, drag_scale;
 void meet_images(int j)
 {
     vec4 other = of_particle(near, j);
-    for (int k = 0; k < image_count; k++) {
-        vec3 d = images[k].x - other.xyz;
-        force += images[k].sign * (push_of(pressure_term + other.w, max(length(d), 1e-6 * support)) * d);
+    for (uint left = images; left != 0u; left &= left - 1u) {
+        Image image = first_image(left);
+        vec3 d = image.x - other.xyz;
+        force += image.sign * (push_of(pressure_term + other.w, max(length(d), 1e-6 * support)) * d);
     }
 }
 

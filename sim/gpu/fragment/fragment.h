@@ -14,11 +14,12 @@
 #include "sim/step/backend.h"
 
 enum {
-    FRAGMENT_COUNT_MOST = 1 << 24, /* ids below are exact in a float and in a 32-bit depth */
-    FRAGMENT_ORDER_EVERY = 32,     /* frames */
-    FRAGMENT_LAYERS_MOST = 63,     /* the 8-bit stencil counts places of a cell */
-    FRAGMENT_LEVELS_MOST = 8,      /* of the reduction, each an eighth per side of the level before */
-    FRAGMENT_CONSTANTS_MAX = 3072  /* characters */
+    FRAGMENT_COUNT_MOST = 1 << 24,   /* ids below are exact in a float and in a 32-bit depth */
+    FRAGMENT_ORDER_EVERY = 32,       /* frames */
+    FRAGMENT_LAYERS_MOST = 63,       /* the 8-bit stencil counts places of a cell */
+    FRAGMENT_FRAMEBUFFERS_MOST = 48, /* more than the passes have, of both textures of each pair */
+    FRAGMENT_LEVELS_MOST = 8,        /* of the reduction, each an eighth per side of the level before */
+    FRAGMENT_CONSTANTS_MAX = 3072    /* characters */
 };
 
 /* X(ENUM, vertex shader, next shader, both below shaders/sim; defines). NULL: shader of the method's pass
@@ -144,7 +145,11 @@ typedef struct Fragment {
                                                                                request */
     Mailbox gauge;                                                          /* 5 float: see gauge.frag */
     Mailbox energy;                                                         /* vec4 each: see energy.frag */
-    unsigned framebuffer, bucket_framebuffer[FRAGMENT_LAYERS_MOST], vertex_array;
+    int framebuffer_count;
+    struct {
+        unsigned name, targets[3];
+    } framebuffers[FRAGMENT_FRAMEBUFFERS_MOST]; /* of the passes, by targets */
+    unsigned bucket_framebuffer[FRAGMENT_LAYERS_MOST], vertex_array;
     GlState caller_state; /* the caller's state, while passes run */
     unsigned program[FRAGMENT_PASS_COUNT];
     int uniform[FRAGMENT_PASS_COUNT][FRAGMENT_UNIFORM_COUNT]; /* locations; -1: none */
@@ -174,13 +179,13 @@ void fragment_set_fluids(const Fragment *fragment);
 /* fragment_number: lists the texels by particle id in `listed`. fragment_target: sets up to three textures
    of `width` x `height` texels as targets. */
 void fragment_number(Fragment *fragment);
-void fragment_target(const Fragment *fragment, const unsigned *targets, int count, int width, int height);
+void fragment_target(Fragment *fragment, const unsigned *targets, int count, int width, int height);
 
 /* Every order_every calls, sorts the particles by cell. */
 void fragment_order(Fragment *fragment);
 
 /* Draws the pass over `width` x `height` texels of up to three textures. */
-void fragment_draw(const Fragment *fragment, FragmentPass pass, const unsigned *targets, int count, int width,
+void fragment_draw(Fragment *fragment, FragmentPass pass, const unsigned *targets, int count, int width,
                    int height);
 
 void fragment_sample(FragmentSampler sampler, unsigned texture);

@@ -110,7 +110,7 @@ static void draw_points(const Fragment *f, bool placeless, size_t count)
 
 /* Lists in listed[1] the particles in the buckets, cell by cell, then particles without a place. Returns
    their number. */
-static size_t list_by_cell(const Fragment *f)
+static size_t list_by_cell(Fragment *f)
 {
     GLuint written = 0;
     fragment_target(f, &f->held[1], 1, f->width, f->height); /* a texture not read here */

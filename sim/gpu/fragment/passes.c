@@ -251,19 +251,40 @@ void fragment_sample(FragmentSampler sampler, unsigned texture)
     glBindTextureUnit((GLuint)(FIRST_UNIT + (int)sampler), texture);
 }
 
-void fragment_target(const Fragment *f, const unsigned *targets, int count, int width, int height)
+static unsigned framebuffer_create(const unsigned *targets, int count)
 {
     static const GLenum attachments[3] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
-    for (int k = 0; k < 3; k++)
-        glNamedFramebufferTexture(f->framebuffer, attachments[k], k < count ? targets[k] : 0, 0);
-    glNamedFramebufferDrawBuffers(f->framebuffer, count, attachments);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, f->framebuffer);
+    unsigned framebuffer;
+    glCreateFramebuffers(1, &framebuffer);
+    glObjectLabel(GL_FRAMEBUFFER, framebuffer, -1, "solver pass");
+    for (int k = 0; k < count; k++)
+        glNamedFramebufferTexture(framebuffer, attachments[k], targets[k], 0);
+    glNamedFramebufferDrawBuffers(framebuffer, count, attachments);
+    return framebuffer;
+}
+
+/* The framebuffer of these targets: a driver checks new attachments. */
+static unsigned framebuffer_of(Fragment *f, const unsigned *targets, int count)
+{
+    unsigned set[3] = {0};
+    memcpy(set, targets, (size_t)count * sizeof *targets);
+    for (int i = 0; i < f->framebuffer_count; i++)
+        if (memcmp(f->framebuffers[i].targets, set, sizeof set) == 0)
+            return f->framebuffers[i].name;
+    const int at = f->framebuffer_count < FRAGMENT_FRAMEBUFFERS_MOST ? f->framebuffer_count++ : 0;
+    glDeleteFramebuffers(1, &f->framebuffers[at].name);
+    memcpy(f->framebuffers[at].targets, set, sizeof set);
+    return f->framebuffers[at].name = framebuffer_create(targets, count);
+}
+
+void fragment_target(Fragment *f, const unsigned *targets, int count, int width, int height)
+{
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_of(f, targets, count));
     glViewport(0, 0, width, height);
     glBindVertexArray(f->vertex_array);
 }
 
-void fragment_draw(const Fragment *f, FragmentPass pass, const unsigned *targets, int count, int width,
-                   int height)
+void fragment_draw(Fragment *f, FragmentPass pass, const unsigned *targets, int count, int width, int height)
 {
     fragment_target(f, targets, count, width, height);
     glUseProgram(f->program[pass]);

@@ -19,7 +19,7 @@ static bool prepare(Fragment *f, Mailbox *mailbox, const char *label, size_t num
     return mailbox->mapped && fragment_gauge_programs(f, &error);
 }
 
-static void reduce_gauge(const Fragment *f, FragmentPass first)
+static void reduce_gauge(Fragment *f, FragmentPass first)
 {
     fragment_sample(FRAGMENT_SAMPLE_POSITION, f->position[0]);
     fragment_sample(FRAGMENT_SAMPLE_VELOCITY, f->velocity[0]);
@@ -120,7 +120,7 @@ static ParticleAttribute pack(Fragment *f, unsigned *buffer, unsigned texture, G
     return (ParticleAttribute){*buffer, 0, stride};
 }
 
-static void draw(const Fragment *f, FragmentPass pass, unsigned target)
+static void draw(Fragment *f, FragmentPass pass, unsigned target)
 {
     fragment_sample(FRAGMENT_SAMPLE_POSITION, f->position[0]);
     fragment_sample(FRAGMENT_SAMPLE_VELOCITY, f->velocity[0]);
@@ -175,7 +175,7 @@ static void sample_level(const Fragment *f, int level)
     fragment_sample(FRAGMENT_SAMPLE_HELD, f->held_sum[level]);
 }
 
-static void reduce_watch(const Fragment *f)
+static void reduce_watch(Fragment *f)
 {
     fragment_sample(FRAGMENT_SAMPLE_VELOCITY, f->velocity[0]);
     fragment_sample(FRAGMENT_SAMPLE_ACCELERATION, f->acceleration);

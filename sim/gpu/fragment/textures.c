@@ -126,8 +126,6 @@ bool fragment_textures_create(Fragment *f, Error *error)
     buckets_create(f);
     const bool enough = watch_create(f);
     lists_create(f);
-    glCreateFramebuffers(1, &f->framebuffer);
-    glObjectLabel(GL_FRAMEBUFFER, f->framebuffer, -1, "solver passes");
     glCreateVertexArrays(1, &f->vertex_array);
     return memory_sufficed(f, enough, error) && fragment_terms_create(f, error);
 }
@@ -171,7 +169,8 @@ void fragment_textures_destroy(Fragment *f)
                                f->word,        f->near,        f->moving,       f->by_cell};
     const GLuint buffers[] = {f->shown_position, f->shown_velocity};
     glDeleteFramebuffers(f->layers, f->bucket_framebuffer);
-    glDeleteFramebuffers(1, &f->framebuffer);
+    for (int i = 0; i < f->framebuffer_count; i++)
+        glDeleteFramebuffers(1, &f->framebuffers[i].name);
     glDeleteTextures(sizeof textures / sizeof *textures, textures);
     glDeleteTextures(f->levels, f->found);
     glDeleteTextures(f->levels, f->held_sum);
