@@ -211,6 +211,7 @@ typedef struct SimulatorStatus {
     double box_wanted[3];               /* target size of the box */
     BoxTarget hand;                     /* the hand's part of the box's pose, after the filter */
     StageTimes stages;                  /* of the last frame */
+    GlCalls calls;                      /* of the driver in the last substep, on a GPU; else 0 */
     int history_count;                  /* of `history`: wall time of the last frames, ms, oldest first */
     float history[SIMULATOR_HISTORY];
     int gauge_count; /* of `gauges`: the last ones since the scene's start, oldest first */

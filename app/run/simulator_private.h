@@ -108,6 +108,7 @@ typedef struct FrameInProgress {
     bool begun;
     StageClock clock;
     double spent_ms, from_s; /* wall time of its steps; simulated time at its begin */
+    GlCalls calls;           /* of the last substep, on a GPU */
 } FrameInProgress;
 
 /* The count of commands obeyed by the state of a step. */

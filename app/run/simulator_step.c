@@ -373,6 +373,7 @@ static void count_frame(Simulator *simulator, double spent, double simulated, co
     simulator->frame_time = simulated;
     status->frames++;
     status->stages = clock->frame;
+    status->calls = simulator->frame.calls;
     status->solved_ms += spent;
     status->history[simulator->history_next] = (float)spent;
     simulator_ring_add(&simulator->history_next, &status->history_count);
@@ -455,7 +456,10 @@ void simulator_frame_step(Simulator *simulator)
         return;
     }
     /* Messages come before the state is shown: viewers may take the frame as finished. */
+    const GlCalls before = simulator->on_gpu ? gl_calls() : (GlCalls){0};
     bool ok = run_substep(&simulator->run, clock, tell, simulator, &error);
+    if (simulator->on_gpu)
+        simulator->frame.calls = gl_calls_since(&before);
     const double led = lead(simulator, ok, info);
     if (ok && shows(simulator, info)) {
         if (simulator->on_gpu)

@@ -13,6 +13,7 @@ static void draw_overlay(Play *play)
                               .frame_times = &play->frame_times,
                               .gl_times = play->picture.timer ? &play->picture.gl_times : NULL,
                               .about = *play->welcome.about ? play->welcome.about : NULL,
+                              .calls = &play->picture.calls,
                               .movie = play->capture.video != NULL};
     const double began = thread_cpu_ms();
     panels_range(play->picture.panels, play->picture.chosen, facts.range);
@@ -157,6 +158,13 @@ static void draw_marks(Play *play)
                                   picture->text, &play->notice);
 }
 
+/* True with a GPU's renderer or backend: on a software driver calls cost nothing worth a look. */
+static bool counts_calls(const Play *play)
+{
+    const Simulator *simulator = play->model.open.simulator;
+    return play->picture.timer || (simulator && simulator_on_gpu(simulator));
+}
+
 /* `best`: the last picture once more, at best quality. */
 static void draw_fluid(Play *play, bool best)
 {
@@ -173,10 +181,14 @@ static void draw_fluid(Play *play, bool best)
         states[i] = model_state(model, views[i]);
     }
     model_titles(model, views, count, titles);
+    const bool counts = !best && counts_calls(play);
+    const GlCalls before = counts ? gl_calls() : (GlCalls){0};
     if (!best)
         picture_draw(picture, states, titles, covered_left);
     else if (!picture_draw_best(picture, &model->open, states, titles, covered_left, &error))
         notice_error(&play->notice, error.message);
+    if (!best)
+        picture->calls = counts ? gl_calls_since(&before) : (GlCalls){0};
     events_poll_hand(play);
 }
 

@@ -136,6 +136,8 @@ static void collect_stages(const PlayModel *model, const PlayOverlayFacts *facts
         data->stage_ran[s] = times->ran[s];
         data->sim_ms += stage_part((Stage)s) == PART_SIM ? times->ms[s] : 0;
     }
+    data->substep_calls = status->calls;
+    data->picture_calls = *facts->calls;
     if (!facts->gl_times && here && status->history_count > 0)
         data->sim_ms = status->history[status->history_count - 1];
 }

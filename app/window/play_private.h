@@ -217,6 +217,7 @@ typedef struct PlayPicture {
     GlTimer *timer;  /* NULL on a software renderer, where measuring would wait: */
     GlTimer *pauses; /* there a disabled timer, for its calls between the passes of a long picture */
     StageTimes gl_times;
+    GlCalls calls; /* of the driver in the last picture, with a GPU; else 0 */
     Text *text;
     int width, height;      /* of the framebuffer; 0 while the window is minimised */
     double refresh;         /* refresh rate of the display, pictures per second */
@@ -358,6 +359,7 @@ typedef struct PlayOverlayFacts {
     const FrameTimes *frame_times;
     const StageTimes *gl_times; /* NULL: the stages of a picture cannot be timed */
     const char *about;          /* the head of the scene file; NULL: none */
+    const GlCalls *calls;       /* of the last picture */
     bool movie;                 /* a video is being recorded */
 } PlayOverlayFacts;
 

@@ -39,8 +39,8 @@ typedef struct GlCalls {
     uint64_t bytes; /* written into buffers by the program, and copied between buffers */
 } GlCalls;
 
-/* The calls since the first look; counts from the first look on. Counts nothing
-   without libEGL. */
+/* The calls since the first look; counts from the first look on. Counts nothing without a context of
+   libEGL. */
 GlCalls gl_calls(void);
 
 /* The calls since the look `before`. */

@@ -87,7 +87,7 @@ GlCalls gl_calls(void)
                    .bytes = counted.bytes};
     for (int k = 0; k < CALL_KINDS; k++)
         all.calls += of[k];
-    if (!counting && (counting = epoxy_has_egl()))
+    if (!counting && (counting = epoxy_has_egl() && eglGetCurrentContext() != EGL_NO_CONTEXT))
         take_pointers();
     return all;
 }

@@ -556,6 +556,31 @@ static void test_stages_as_they_are_known(void **state)
     session_close(&session, desk);
 }
 
+/* The driver's calls, below the stages, with a GPU alone. */
+static void test_calls_of_a_gpu(void **state)
+{
+    (void)state;
+    Session session;
+    Desk *desk = session_open(&session, "box_slosh", 1280, 1600, 13);
+    for (int i = 0; i < STAGE_COUNT; i++)
+        session.data.stage_ran[i] = i == STAGE_GRID; /* leaves room */
+    desk_click_at(desk, "Stages", 0.3F);
+    assert_null(desk_find(desk, "dispatches")); /* without a GPU */
+    session.data.substep_calls = (GlCalls){.calls = 1618, .dispatches = 273, .waits = 14, .readbacks = 51};
+    desk_frames(desk, 30);
+    assert_non_null(desk_find(desk, "dispatches"));
+    assert_non_null(desk_find(desk, "1618"));
+    assert_non_null(desk_find(desk, "273"));
+    assert_non_null(desk_find(desk, "14"));
+    assert_non_null(desk_find(desk, "51"));
+    assert_null(desk_find(desk, "picture"));
+    session.data.picture_calls = (GlCalls){.calls = 99};
+    desk_frames(desk, 30);
+    assert_non_null(desk_find(desk, "picture"));
+    assert_non_null(desk_find(desk, "99"));
+    session_close(&session, desk);
+}
+
 /* Numbers with units, ranges and limits; past values under the mouse. */
 static void test_gauges_are_plotted(void **state)
 {
@@ -815,6 +840,7 @@ int main(void)
         cmocka_unit_test_teardown(test_motion_devices, no_gl_errors),
         cmocka_unit_test_teardown(test_the_scene_begins_anew, no_gl_errors),
         cmocka_unit_test_teardown(test_stages_as_they_are_known, no_gl_errors),
+        cmocka_unit_test_teardown(test_calls_of_a_gpu, no_gl_errors),
         cmocka_unit_test_teardown(test_gauges_are_plotted, no_gl_errors),
         cmocka_unit_test_teardown(test_probes_are_plotted, no_gl_errors),
         cmocka_unit_test_teardown(test_nothing_is_cut_at_any_scale, no_gl_errors),

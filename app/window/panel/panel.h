@@ -9,6 +9,7 @@
 #include "app/run/simulator.h"
 #include "app/scene/scene.h"
 #include "render/ui/ui.h"
+#include "sim/gpu/gl.h"
 #include "sim/step/constants.h"
 #include "slosh/world.h"
 
@@ -26,6 +27,7 @@ typedef struct PanelData {
     bool render_stages_known; /* false on a software renderer, where stages of a picture cannot be timed
                                  without waiting: one bar for all rendering */
     double sim_ms, render_ms; /* per frame of the solver; per picture */
+    GlCalls substep_calls, picture_calls; /* of the driver in the last one; 0: not by a GPU */
     const float *frame_history,
         *step_history;           /* ms, oldest first: between pictures; per frame of the solver */
     int frame_count, step_count; /* counts */

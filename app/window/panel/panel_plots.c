@@ -2,6 +2,7 @@
 #include "app/window/panel/panel_private.h"
 
 #include <assert.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -215,6 +216,44 @@ static void draw_stage(Ui *ui, const StageLine *line, double longest, double all
     ui_words(ui, rect[2] - ui_words_width(ui, share), y, (uint32_t)STAGE_FAINT, share);
 }
 
+/* The driver's calls, named as in bench's JSON. */
+typedef struct CallsLine {
+    const char *name;
+    const GlCalls *of;
+} CallsLine;
+
+static void draw_calls_line(Ui *ui, const CallsLine *line, const float rect[4], float y)
+{
+    static const char *const names[] = {"calls", "dispatches", "waits", "readbacks"};
+    const uint64_t counts[] = {line->of ? line->of->calls : 0, line->of ? line->of->dispatches : 0,
+                               line->of ? line->of->waits : 0, line->of ? line->of->readbacks : 0};
+    const float em = ui_pixels(ui), left = rect[0] + 5 * em;
+    ui_words(ui, rect[0], y, (uint32_t)STAGE_INK, line->name);
+    for (int k = 0; k < 4; k++) {
+        char words[24];
+        snprintf(words, sizeof words, "%" PRIu64, counts[k]);
+        const char *shown = line->of ? words : names[k];
+        const float right = left + (rect[2] - left) * (float)(k + 1) / 4;
+        ui_words(ui, right - ui_words_width(ui, shown), y, (uint32_t)(line->of ? STAGE_INK : STAGE_FAINT),
+                 shown);
+    }
+}
+
+static void draw_calls(Ui *ui, const PanelData *data)
+{
+    CallsLine lines[3] = {{"GPU", NULL}};
+    int count = 1;
+    float rect[4];
+    if (data->substep_calls.calls > 0)
+        lines[count++] = (CallsLine){"substep", &data->substep_calls};
+    if (data->picture_calls.calls > 0)
+        lines[count++] = (CallsLine){"picture", &data->picture_calls};
+    if (count == 1 || !ui_area(ui, LINE_EM * (float)count, rect))
+        return;
+    for (int i = 0; i < count; i++)
+        draw_calls_line(ui, &lines[i], rect, rect[1] + LINE_EM * ui_pixels(ui) * (float)i);
+}
+
 void panel_stages(Ui *ui, const PanelData *data)
 {
     StageLine lines[STAGE_COUNT + 1];
@@ -226,10 +265,10 @@ void panel_stages(Ui *ui, const PanelData *data)
     const int count = gather(data, lines, &all);
     for (int i = 0; i < count; i++)
         longest = fmax(longest, lines[i].ms);
-    if (!ui_area(ui, LINE_EM * (float)count, rect))
-        return;
-    for (int i = 0; i < count; i++)
-        draw_stage(ui, &lines[i], longest, all, rect, rect[1] + LINE_EM * ui_pixels(ui) * (float)i);
+    if (ui_area(ui, LINE_EM * (float)count, rect))
+        for (int i = 0; i < count; i++)
+            draw_stage(ui, &lines[i], longest, all, rect, rect[1] + LINE_EM * ui_pixels(ui) * (float)i);
+    draw_calls(ui, data);
 }
 
 /* Values of a plot, and the line across. */
