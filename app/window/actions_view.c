@@ -42,6 +42,19 @@ const UserAction action_next_view = {
     .run = next_view,
 };
 
+/* The quantities that one plays with; the panel has all. */
+static const Scalar played[] = {SCALAR_SPEED, SCALAR_DENSITY, SCALAR_PRESSURE, SCALAR_VORTICITY,
+                                SCALAR_FLUID};
+
+static Scalar after(Scalar shown)
+{
+    const size_t count = sizeof played / sizeof *played;
+    size_t i = 0;
+    while (i < count && played[i] != shown)
+        i++;
+    return i < count ? played[(i + 1) % count] : played[0];
+}
+
 /* Chooses the next scalar; the file's range applies only to the file's scalar. */
 static void next_scalar(Play *play)
 {
@@ -51,7 +64,7 @@ static void next_scalar(Play *play)
     Error none;
     view->color_by = view_color_by(view);
     do
-        view->color_by = (Scalar)((view->color_by + 1) % SCALAR_COUNT);
+        view->color_by = after(view->color_by);
     while (view->color_by != SCALAR_FLUID && !model_has(&play->model, view, &none));
     const Scalar ranged = file->color_by == SCALAR_COUNT ? SCALAR_SPEED : file->color_by;
     view->range_auto = view->color_by == ranged ? file->range_auto : true;
@@ -62,7 +75,8 @@ static void next_scalar(Play *play)
 
 const UserAction action_next_scalar = {
     .name = "next-scalar",
-    .help = "colour the fluid by the next quantity",
+    .help =
+        "colour the fluid by its speed, density, pressure, vorticity, or as the fluid is; the panel has more",
     .keys = {ON(S)},
     .run = next_scalar,
 };
