@@ -8,6 +8,8 @@
 
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 static int draw_check_complaints;
 static bool draw_check_barrier;                      /* a texture barrier since the last draw */
@@ -19,23 +21,6 @@ static inline void draw_check_complain(GLuint program, const char *what, const c
     glGetObjectLabel(GL_PROGRAM, program, sizeof label, NULL, label);
     fprintf(stderr, "program '%s': %s '%s'\n", label, what, name);
     draw_check_complaints++;
-}
-
-/* `kind`: GL_UNIFORM_BLOCK or GL_SHADER_STORAGE_BLOCK. */
-static inline void draw_check_blocks(GLuint program, GLenum kind, GLenum bound)
-{
-    static const GLenum wanted = GL_BUFFER_BINDING;
-    GLint count = 0;
-    glGetProgramInterfaceiv(program, kind, GL_ACTIVE_RESOURCES, &count);
-    for (GLint i = 0; i < count; i++) {
-        char name[64] = "";
-        GLint binding = 0, buffer = 0;
-        glGetProgramResourceiv(program, kind, (GLuint)i, 1, &wanted, 1, NULL, &binding);
-        glGetIntegeri_v(bound, (GLuint)binding, &buffer);
-        glGetProgramResourceName(program, kind, (GLuint)i, sizeof name, NULL, name);
-        if (buffer == 0)
-            draw_check_complain(program, "no buffer is bound to the block", name);
-    }
 }
 
 /* The texture's binding point where the type is a sampler's; 0 where it is none. */
@@ -57,6 +42,92 @@ static inline GLenum draw_check_sampled(GLint type)
     default:
         return 0;
     }
+}
+
+static inline bool draw_check_is_image(GLint type)
+{
+    return type == GL_IMAGE_3D || type == GL_UNSIGNED_INT_IMAGE_3D || type == GL_IMAGE_2D;
+}
+
+/* A sampler or an image. */
+static inline bool draw_check_reads(GLint type)
+{
+    return draw_check_is_image(type) || draw_check_sampled(type);
+}
+
+/* What a program reads: looked up once, since asking the driver takes longer than a small dispatch. */
+typedef struct DrawCheckInput {
+    GLenum kind; /* GL_UNIFORM_BLOCK, GL_SHADER_STORAGE_BLOCK or GL_UNIFORM: a sampler or an image */
+    GLint type;  /* of a uniform */
+    GLint place; /* binding of a block, location of a uniform */
+    char name[64];
+} DrawCheckInput;
+
+typedef struct DrawCheckProgram {
+    bool known;
+    int count;
+    DrawCheckInput *inputs;
+} DrawCheckProgram;
+
+static DrawCheckProgram *draw_check_programs; /* by the program's name */
+static GLuint draw_check_room;
+
+static inline void draw_check_forget(DrawCheckProgram *program)
+{
+    free(program->inputs);
+    *program = (DrawCheckProgram){0};
+}
+
+static inline void draw_check_list(GLuint program, GLenum kind, DrawCheckProgram *known)
+{
+    static const GLenum block[] = {GL_BUFFER_BINDING}, uniform[] = {GL_LOCATION, GL_TYPE};
+    const int asked = kind == GL_UNIFORM ? 2 : 1;
+    GLint count = 0;
+    glGetProgramInterfaceiv(program, kind, GL_ACTIVE_RESOURCES, &count);
+    for (GLint i = 0; i < count; i++) {
+        GLint is[2] = {0};
+        glGetProgramResourceiv(program, kind, (GLuint)i, asked, asked == 2 ? uniform : block, asked, NULL,
+                               is);
+        if (kind == GL_UNIFORM && (is[0] < 0 || !draw_check_reads(is[1])))
+            continue;
+        known->inputs = realloc(known->inputs, (size_t)(known->count + 1) * sizeof *known->inputs);
+        if (!known->inputs)
+            abort();
+        DrawCheckInput *input = &known->inputs[known->count++];
+        *input = (DrawCheckInput){.kind = kind, .place = is[0], .type = is[1]};
+        glGetProgramResourceName(program, kind, (GLuint)i, sizeof input->name, NULL, input->name);
+    }
+}
+
+static inline const DrawCheckProgram *draw_check_inputs(GLuint program)
+{
+    if (program >= draw_check_room) {
+        const GLuint room = 2 * program + 64;
+        draw_check_programs = realloc(draw_check_programs, room * sizeof *draw_check_programs);
+        if (!draw_check_programs)
+            abort();
+        memset(draw_check_programs + draw_check_room, 0,
+               (room - draw_check_room) * sizeof *draw_check_programs);
+        draw_check_room = room;
+    }
+    DrawCheckProgram *known = &draw_check_programs[program];
+    if (!known->known) {
+        draw_check_list(program, GL_UNIFORM_BLOCK, known);
+        draw_check_list(program, GL_SHADER_STORAGE_BLOCK, known);
+        draw_check_list(program, GL_UNIFORM, known);
+        known->known = true;
+    }
+    return known;
+}
+
+static inline void draw_check_block(GLuint program, const DrawCheckInput *block)
+{
+    GLint buffer = 0;
+    glGetIntegeri_v(block->kind == GL_UNIFORM_BLOCK ? GL_UNIFORM_BUFFER_BINDING
+                                                    : GL_SHADER_STORAGE_BUFFER_BINDING,
+                    (GLuint)block->place, &buffer);
+    if (buffer == 0)
+        draw_check_complain(program, "no buffer is bound to the block", block->name);
 }
 
 static inline bool draw_check_attached(GLint texture, GLenum attachment)
@@ -86,13 +157,13 @@ static inline bool draw_check_fed_back(GLint texture, bool draws)
            (!draws || (depth && glIsEnabled(GL_DEPTH_TEST) && !draw_check_barrier));
 }
 
-/* The texture at the unit of a sampler or image of the type; -1: neither kind. */
+/* The texture at the unit of a sampler or image of the type. */
 static inline GLint draw_check_texture(GLint type, GLint unit)
 {
-    GLint texture = -1, unit_was = 0;
-    if (type == GL_IMAGE_3D || type == GL_UNSIGNED_INT_IMAGE_3D || type == GL_IMAGE_2D) {
+    GLint texture = 0, unit_was = 0;
+    if (draw_check_is_image(type)) {
         glGetIntegeri_v(GL_IMAGE_BINDING_NAME, (GLuint)unit, &texture);
-    } else if (draw_check_sampled(type)) {
+    } else {
         glGetIntegerv(GL_ACTIVE_TEXTURE, &unit_was);
         glActiveTexture(GL_TEXTURE0 + (GLenum)unit);
         glGetIntegerv(draw_check_sampled(type), &texture);
@@ -113,26 +184,17 @@ static inline bool draw_check_filters_depth(GLint type, GLuint texture)
     return bits > 0 && compare == GL_NONE && filter == GL_LINEAR;
 }
 
-static inline void draw_check_textures(GLuint program, bool draws)
+static inline void draw_check_uniform(GLuint program, const DrawCheckInput *uniform, bool draws)
 {
-    static const GLenum wanted[] = {GL_TYPE, GL_LOCATION};
-    GLint count = 0;
-    glGetProgramInterfaceiv(program, GL_UNIFORM, GL_ACTIVE_RESOURCES, &count);
-    for (GLint i = 0; i < count; i++) {
-        char name[64] = "";
-        GLint is[2] = {0}, value[16] = {0}; /* room for a matrix; of a sampler its unit */
-        glGetProgramResourceiv(program, GL_UNIFORM, (GLuint)i, 2, wanted, 2, NULL, is);
-        glGetProgramResourceName(program, GL_UNIFORM, (GLuint)i, sizeof name, NULL, name);
-        if (is[1] >= 0)
-            glGetUniformiv(program, is[1], value);
-        const GLint texture = draw_check_texture(is[0], value[0]);
-        if (texture == 0)
-            draw_check_complain(program, "no texture is bound to", name);
-        else if (texture > 0 && draw_check_filters_depth(is[0], (GLuint)texture))
-            draw_check_complain(program, "filters the depths of", name);
-        else if (texture > 0 && draw_check_fed_back(texture, draws))
-            draw_check_complain(program, "reads and draws into the texture of", name);
-    }
+    GLint unit = 0;
+    glGetUniformiv(program, uniform->place, &unit);
+    const GLint texture = draw_check_texture(uniform->type, unit);
+    if (texture == 0)
+        draw_check_complain(program, "no texture is bound to", uniform->name);
+    else if (draw_check_filters_depth(uniform->type, (GLuint)texture))
+        draw_check_complain(program, "filters the depths of", uniform->name);
+    else if (draw_check_fed_back(texture, draws))
+        draw_check_complain(program, "reads and draws into the texture of", uniform->name);
 }
 
 static inline void draw_check(bool draws)
@@ -141,9 +203,12 @@ static inline void draw_check(bool draws)
     glGetIntegerv(GL_CURRENT_PROGRAM, &program);
     if (program == 0)
         return;
-    draw_check_blocks((GLuint)program, GL_UNIFORM_BLOCK, GL_UNIFORM_BUFFER_BINDING);
-    draw_check_blocks((GLuint)program, GL_SHADER_STORAGE_BLOCK, GL_SHADER_STORAGE_BUFFER_BINDING);
-    draw_check_textures((GLuint)program, draws);
+    const DrawCheckProgram *known = draw_check_inputs((GLuint)program);
+    for (int i = 0; i < known->count; i++)
+        if (known->inputs[i].kind == GL_UNIFORM)
+            draw_check_uniform((GLuint)program, &known->inputs[i], draws);
+        else
+            draw_check_block((GLuint)program, &known->inputs[i]);
     draw_check_barrier = draw_check_barrier && !draws;
 }
 
@@ -180,6 +245,16 @@ static void APIENTRY draw_checked_glTextureBarrier(void)
     draw_check_glTextureBarrier();
 }
 
+/* The driver gives the name of a deleted program again. */
+static PFNGLCREATEPROGRAMPROC draw_check_glCreateProgram;
+static GLuint APIENTRY draw_checked_glCreateProgram(void)
+{
+    const GLuint program = draw_check_glCreateProgram();
+    if (program < draw_check_room)
+        draw_check_forget(&draw_check_programs[program]);
+    return program;
+}
+
 /* The program's calls go through libepoxy's pointers; before the first call a pointer is not the
    driver's. */
 static inline void draw_check_install(void)
@@ -195,6 +270,7 @@ static inline void draw_check_install(void)
     PUT(glDrawElementsIndirect);
     PUT(glDrawTransformFeedback);
     PUT(glTextureBarrier);
+    PUT(glCreateProgram);
 #undef PUT
 }
 
