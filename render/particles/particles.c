@@ -72,24 +72,36 @@ void work_run_scattered(size_t invocations)
 
 /* Each block that a program declares gets a buffer, even if the shader does not read the block: an unbound
    block makes some drivers spoil other blocks. Positions replace a missing attribute. */
-static void bind_attribute(GLuint binding, const ParticleAttribute *attribute,
-                           const ParticleBuffers *particles)
+static void bind_attributes(GLuint first, int count, const ParticleAttribute *const attributes[],
+                            const ParticleBuffers *particles)
 {
-    const ParticleAttribute *bound = attribute->buffer ? attribute : &particles->position;
-    if (bound->buffer && particles->count)
-        glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, bound->buffer, (GLintptr)bound->offset,
-                          (GLsizeiptr)(particles->count * bound->stride));
+    enum { MOST = 3 };
+    GLuint buffers[MOST];
+    GLintptr offsets[MOST];
+    GLsizeiptr sizes[MOST];
+    if (!particles->position.buffer || particles->count == 0)
+        return;
+    for (int i = 0; i < count; i++) {
+        const ParticleAttribute *bound = attributes[i]->buffer ? attributes[i] : &particles->position;
+        buffers[i] = bound->buffer;
+        offsets[i] = (GLintptr)bound->offset;
+        sizes[i] = (GLsizeiptr)(particles->count * bound->stride);
+    }
+    glBindBuffersRange(GL_SHADER_STORAGE_BUFFER, first, count, buffers, offsets, sizes);
 }
+
+_Static_assert(SCALARS_STORAGE == POSITIONS_STORAGE + 1 && FLUIDS_STORAGE == POSITIONS_STORAGE + 2 &&
+                   SCALAR_STRIDE_AT == POSITION_STRIDE_AT + 1 && FLUID_STRIDE_AT == POSITION_STRIDE_AT + 2,
+               "bound and set by one call");
 
 void particle_bind(unsigned program, const ParticleBuffers *particles, Scalar scalar)
 {
-    const ParticleAttribute *shown = &particles->scalar[scalar];
-    bind_attribute(POSITIONS_STORAGE, &particles->position, particles);
-    bind_attribute(SCALARS_STORAGE, shown, particles);
-    bind_attribute(FLUIDS_STORAGE, &particles->fluid, particles);
-    glProgramUniform1ui(program, POSITION_STRIDE_AT, (GLuint)(particles->position.stride / 4));
-    glProgramUniform1ui(program, SCALAR_STRIDE_AT, (GLuint)(shown->stride / 4));
-    glProgramUniform1ui(program, FLUID_STRIDE_AT, (GLuint)(particles->fluid.stride / 4));
+    const ParticleAttribute *of[] = {&particles->position, &particles->scalar[scalar], &particles->fluid};
+    GLuint strides[3];
+    for (int i = 0; i < 3; i++)
+        strides[i] = (GLuint)(of[i]->stride / 4);
+    bind_attributes(POSITIONS_STORAGE, 3, of, particles);
+    glProgramUniform1uiv(program, POSITION_STRIDE_AT, 3, strides);
 }
 
 const ParticleAttribute *particle_color_attribute(const ParticleBuffers *particles, Scalar color_by)
@@ -111,7 +123,7 @@ unsigned particle_bind_one(unsigned binding, const ParticleAttribute *attribute,
 void particle_bind_ids(unsigned program, const ParticleBuffers *particles)
 {
     const ParticleAttribute *ids = &particles->scalar[SCALAR_ID];
-    bind_attribute(IDS_STORAGE, ids, particles);
+    bind_attributes(IDS_STORAGE, 1, &ids, particles);
     glProgramUniform1ui(program, ID_STRIDE_AT, (GLuint)(ids->buffer ? ids->stride / 4 : 0));
 }
 

@@ -3,9 +3,10 @@
 // common/particle_scalars.glsl, common/particle_fluids.glsl.
 #include "shaders/shared/bindings.h"
 layout(std430, binding = POSITIONS_STORAGE) readonly buffer Positions { float position_words[]; };
-layout(location = POSITION_STRIDE_AT) uniform uint position_stride;
-layout(location = SCALAR_STRIDE_AT) uniform uint scalar_stride;
-layout(location = FLUID_STRIDE_AT) uniform uint fluid_stride;
+layout(location = POSITION_STRIDE_AT) uniform uint particle_strides[3]; // and SCALAR_STRIDE_AT, FLUID_STRIDE_AT: set by one call
+#define position_stride particle_strides[0]
+#define scalar_stride particle_strides[1]
+#define fluid_stride particle_strides[2]
 
 vec3 particle_position(uint particle_index)
 {

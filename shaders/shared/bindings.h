@@ -45,7 +45,7 @@
 #define BEHIND_DEPTH_UNIT 15
 
 /* Locations of uniforms; views use 16 to 63 */
-#define POSITION_STRIDE_AT  0
+#define POSITION_STRIDE_AT  0 /* of an array with the next two */
 #define SCALAR_STRIDE_AT    1
 #define FLUID_STRIDE_AT     2
 #define REFRACTION_INDEX_AT 3

@@ -10,6 +10,9 @@ GL_CALL(CALL_OTHER, void, glBindBufferBase, (GLenum a, GLuint b, GLuint c), (a, 
 GL_CALL(CALL_OTHER, void, glBindBufferRange, (GLenum a, GLuint b, GLuint c, GLintptr d, GLsizeiptr e),
         (a, b, c, d, e))
 GL_CALL(CALL_OTHER, void, glBindBuffersBase, (GLenum a, GLuint b, GLsizei c, const GLuint *d), (a, b, c, d))
+GL_CALL(CALL_OTHER, void, glBindBuffersRange,
+        (GLenum a, GLuint b, GLsizei c, const GLuint *d, const GLintptr *e, const GLsizeiptr *f),
+        (a, b, c, d, e, f))
 GL_CALL(CALL_OTHER, void, glBindFramebuffer, (GLenum a, GLuint b), (a, b))
 GL_CALL(CALL_OTHER, void, glBindImageTexture,
         (GLuint a, GLuint b, GLint c, GLboolean d, GLint e, GLenum f, GLenum g), (a, b, c, d, e, f, g))
