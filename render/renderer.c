@@ -99,6 +99,7 @@ static void keep_freed_memory(void)
 Renderer *renderer_create(const ViewDef *def, const WorldDef *world, int width, int height, Error *error)
 {
     Renderer *renderer = calloc(1, sizeof *renderer);
+    Error unsaid; /* `error` has the first reason */
     if (!renderer) {
         error_set(error, "out of memory for the renderer");
         return NULL;
@@ -107,7 +108,9 @@ Renderer *renderer_create(const ViewDef *def, const WorldDef *world, int width, 
     renderer->def = view_at_quality(def, false);
     renderer->world = *(world ? world : &unknown);
     keep_freed_memory();
-    if (create_parts(renderer, width, height, error))
+    programs_begin();
+    const bool created = create_parts(renderer, width, height, error);
+    if (programs_finish(created ? error : &unsaid) && created)
         return renderer;
     renderer_destroy(renderer);
     return NULL;

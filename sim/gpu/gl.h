@@ -164,6 +164,18 @@ bool shader_source_has(const char *path);
    log". */
 unsigned program_create(const char *label, const char *const stages[], const char *defines, Error *error);
 
+/* Equal sources are compiled once a process. Each caller has a separate program, with separate uniforms. */
+
+/* program_create with an output for transform feedback. */
+unsigned program_create_captured(const char *label, const char *const stages[], const char *defines,
+                                 const char *output, Error *error);
+
+/* Between programs_begin and programs_finish, program_create does not wait, so that a driver can compile
+   several programs in parallel. programs_finish waits. False: a program does not compile, and the callers
+   delete the programs. Pairs may nest; the outermost counts. */
+void programs_begin(void);
+bool programs_finish(Error *error);
+
 /* program_create in two halves, so that a driver can compile several programs in parallel. program_begin
    does not wait and returns 0 if a file is missing; program_finish is true on success and takes the same
    arguments. */

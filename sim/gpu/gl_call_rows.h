@@ -108,6 +108,8 @@ GL_CALL(CALL_QUESTION, void, glGetInteger64v, (GLenum a, GLint64 *b), (a, b))
 GL_CALL(CALL_QUESTION, void, glGetIntegerv, (GLenum a, GLint *b), (a, b))
 GL_CALL(CALL_READBACK, void, glGetNamedBufferSubData, (GLuint a, GLintptr b, GLsizeiptr c, void *d),
         (a, b, c, d))
+GL_CALL(CALL_OTHER, void, glGetProgramBinary, (GLuint a, GLsizei b, GLsizei *c, GLenum *d, void *e),
+        (a, b, c, d, e))
 GL_CALL(CALL_QUESTION, void, glGetProgramInfoLog, (GLuint a, GLsizei b, GLsizei *c, GLchar *d), (a, b, c, d))
 GL_CALL(CALL_QUESTION, GLuint, glGetProgramResourceIndex, (GLuint a, GLenum b, const GLchar *c), (a, b, c))
 GL_CALL(CALL_QUESTION, void, glGetProgramResourceiv,
@@ -129,6 +131,7 @@ GL_CALL(pixels_read(), void, glGetTextureSubImage,
         (a, b, c, d, e, f, g, h, i, j, k, l))
 GL_CALL(CALL_QUESTION, GLint, glGetUniformLocation, (GLuint a, const GLchar *b), (a, b))
 GL_CALL(CALL_QUESTION, GLboolean, glIsEnabled, (GLenum a), (a))
+GL_CALL(CALL_QUESTION, GLboolean, glIsProgram, (GLuint a), (a))
 GL_CALL(CALL_OTHER, void, glLinkProgram, (GLuint a), (a))
 GL_CALL(CALL_OTHER, void *, glMapNamedBufferRange, (GLuint a, GLintptr b, GLsizeiptr c, GLbitfield d),
         (a, b, c, d))
@@ -147,6 +150,8 @@ GL_CALL(CALL_OTHER, void, glObjectLabel, (GLenum a, GLuint b, GLsizei c, const G
 GL_CALL(CALL_OTHER, void, glPixelStorei, (GLenum a, GLint b), (a, b))
 GL_CALL(CALL_OTHER, void, glPointSize, (GLfloat a), (a))
 GL_CALL(CALL_OTHER, void, glPolygonMode, (GLenum a, GLenum b), (a, b))
+GL_CALL(CALL_OTHER, void, glProgramBinary, (GLuint a, GLenum b, const void *c, GLsizei d), (a, b, c, d))
+GL_CALL(CALL_OTHER, void, glProgramParameteri, (GLuint a, GLenum b, GLint c), (a, b, c))
 GL_CALL(CALL_OTHER, void, glProgramUniform1f, (GLuint a, GLint b, GLfloat c), (a, b, c))
 GL_CALL(CALL_OTHER, void, glProgramUniform1i, (GLuint a, GLint b, GLint c), (a, b, c))
 GL_CALL(CALL_OTHER, void, glProgramUniform1ui, (GLuint a, GLint b, GLuint c), (a, b, c))

@@ -278,38 +278,165 @@ static GLenum stage_kind(const char *path)
     return 0;
 }
 
-static bool attach(GLuint program, const char *path, const char *defines, Error *error)
+enum { STAGES_MOST = 3 };
+
+/* Sources of a program. */
+typedef struct ProgramSource {
+    int count;
+    const char *const *paths;
+    ShaderSource stages[STAGES_MOST];
+    const char *captured; /* output for transform feedback; NULL: none */
+    uint64_t hash;
+} ProgramSource;
+
+/* FNV-1a, 64 bits. */
+static void hash_text(uint64_t *hash, const char *text)
 {
-    GLenum kind = stage_kind(path);
-    if (!kind)
-        return error_set(error, "%s: unknown kind of shader; .vert, .geom, .frag and .comp are known", path);
-    ShaderSource source;
-    const GLuint shader = glCreateShader(kind);
-    const bool done = shader_source_load(&source, path, defines, error);
-    if (done) {
-        glShaderSource(shader, 1, (const GLchar *const *)&source.text, NULL);
-        glCompileShader(shader);
-        glAttachShader(program, shader);
+    do
+        *hash = (*hash ^ (unsigned char)*text) * UINT64_C(0x100000001B3);
+    while (*text++);
+}
+
+static void sources_free(ProgramSource *source)
+{
+    for (int i = 0; i < source->count; i++)
+        shader_source_free(&source->stages[i]);
+}
+
+/* Free in either case. */
+static bool sources_load(ProgramSource *source, const char *const stages[], const char *defines,
+                         const char *captured, Error *error)
+{
+    *source = (ProgramSource){.paths = stages, .captured = captured, .hash = UINT64_C(0xCBF29CE484222325)};
+    for (int i = 0; stages[i]; i++) {
+        if (!stage_kind(stages[i]) || i == STAGES_MOST)
+            return error_set(error, "%s: unknown kind of shader; .vert, .geom, .frag and .comp are known",
+                             stages[i]);
+        source->count = i + 1;
+        if (!shader_source_load(&source->stages[i], stages[i], defines, error))
+            return false;
+        hash_text(&source->hash, stages[i]);
+        hash_text(&source->hash, source->stages[i].text);
     }
-    shader_source_free(&source);
+    hash_text(&source->hash, captured ? captured : "");
+    return true;
+}
+
+/* Linked programs of the process, by hash of the sources: a second panel compiles nothing. Each owner has a
+   separate program, for separate uniforms. */
+typedef struct LinkedProgram {
+    uint64_t hash;
+    GLuint program; /* being compiled; 0: `binary` is known */
+    GLenum format;
+    GLsizei size;
+    void *binary;
+} LinkedProgram;
+
+static struct {
+    LinkedProgram *of;
+    size_t count, capacity;
+} linked;
+
+static LinkedProgram *linked_find(uint64_t hash)
+{
+    for (size_t i = 0; i < linked.count; i++)
+        if (linked.of[i].hash == hash)
+            return &linked.of[i];
+    return NULL;
+}
+
+/* Without memory, later programs compile. */
+static void linked_expect(uint64_t hash, GLuint program)
+{
+    LinkedProgram *row = linked_find(hash);
+    free(row ? row->binary : NULL); /* refused by the driver */
+    if (!row && linked.count == linked.capacity) {
+        const size_t more = 2 * linked.capacity + 64;
+        LinkedProgram *grown = realloc(linked.of, more * sizeof *grown);
+        if (!grown)
+            return;
+        linked.of = grown;
+        linked.capacity = more;
+    }
+    row = row ? row : &linked.of[linked.count++];
+    for (size_t i = 0; i < linked.count; i++) /* a deleted program may have had the name */
+        linked.of[i].program = linked.of[i].program == program ? 0 : linked.of[i].program;
+    *row = (LinkedProgram){.hash = hash, .program = program};
+}
+
+/* Keeps the binary of an awaited program. */
+static void linked_keep(GLuint program)
+{
+    GLint size = 0;
+    for (size_t i = 0; i < linked.count; i++) {
+        LinkedProgram *row = &linked.of[i];
+        if (row->program != program)
+            continue;
+        row->program = 0;
+        glGetProgramiv(program, GL_PROGRAM_BINARY_LENGTH, &size);
+        row->binary = size > 0 ? malloc((size_t)size) : NULL;
+        if (row->binary)
+            glGetProgramBinary(program, size, &row->size, &row->format, row->binary);
+    }
+}
+
+/* Returns 0 without a binary, or if the driver refuses the binary. */
+static GLuint linked_take(uint64_t hash, const char *label)
+{
+    const LinkedProgram *row = linked_find(hash);
+    GLint done = GL_FALSE;
+    if (!row || !row->binary)
+        return 0;
+    const GLuint program = glCreateProgram();
+    glObjectLabel(GL_PROGRAM, program, -1, label);
+    glProgramBinary(program, row->format, row->binary, row->size);
+    glGetProgramiv(program, GL_LINK_STATUS, &done);
+    if (done)
+        return program;
+    glDeleteProgram(program);
+    return 0;
+}
+
+static void attach(GLuint program, const char *path, const ShaderSource *source)
+{
+    const GLuint shader = glCreateShader(stage_kind(path));
+    glShaderSource(shader, 1, (const GLchar *const *)&source->text, NULL);
+    glCompileShader(shader);
+    glAttachShader(program, shader);
     glObjectLabel(GL_SHADER, shader, -1, path);
     glDeleteShader(shader); /* lives as long as the program */
-    return done;
+}
+
+static GLuint compile(const ProgramSource *source, const char *label)
+{
+    const GLuint program = glCreateProgram();
+    glObjectLabel(GL_PROGRAM, program, -1, label);
+    for (int i = 0; i < source->count; i++)
+        attach(program, source->paths[i], &source->stages[i]);
+    if (source->captured)
+        glTransformFeedbackVaryings(program, 1, &source->captured, GL_INTERLEAVED_ATTRIBS);
+    glProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
+    glLinkProgram(program);
+    linked_expect(source->hash, program);
+    return program;
+}
+
+static GLuint begin(const char *label, const char *const stages[], const char *defines, const char *captured,
+                    Error *error)
+{
+    ProgramSource source;
+    GLuint program = 0;
+    if (sources_load(&source, stages, defines, captured, error)) {
+        program = linked_take(source.hash, label);
+        program = program ? program : compile(&source, label);
+    }
+    sources_free(&source);
+    return program;
 }
 
 unsigned program_begin(const char *label, const char *const stages[], const char *defines, Error *error)
 {
-    GLuint program = glCreateProgram();
-    glObjectLabel(GL_PROGRAM, program, -1, label);
-    bool done = true;
-    for (int i = 0; done && stages[i]; i++)
-        done = attach(program, stages[i], defines, error);
-    if (done) {
-        glLinkProgram(program);
-        return program;
-    }
-    glDeleteProgram(program);
-    return 0;
+    return begin(label, stages, defines, NULL, error);
 }
 
 /* Reports a log with file names, reading the files again. */
@@ -326,7 +453,6 @@ static bool say_log(const char *log, const char *label, const char *path, const 
 
 static bool compiled(GLuint program, const char *const stages[], const char *defines, Error *error)
 {
-    enum { STAGES_MOST = 3 };
     GLuint shaders[STAGES_MOST];
     GLsizei count = 0;
     bool done = true;
@@ -352,8 +478,10 @@ bool program_finish(unsigned program, const char *label, const char *const stage
     if (!compiled(program, stages, defines, error))
         return false;
     glGetProgramiv(program, GL_LINK_STATUS, &done);
-    if (done)
+    if (done) {
+        linked_keep(program);
         return true;
+    }
     char log[LOG_MAX], before[160];
     glGetProgramInfoLog(program, sizeof log, NULL, log);
     snprintf(before, sizeof before, "%s: the program does not link: ", label);
@@ -362,13 +490,90 @@ bool program_finish(unsigned program, const char *label, const char *const stage
     return error_set(error, "%s%s", before, log);
 }
 
-unsigned program_create(const char *label, const char *const stages[], const char *defines, Error *error)
+/* ---- several at a time ---- */
+
+typedef struct PendingProgram {
+    GLuint program;
+    char label[64], *defines;
+    const char *stages[STAGES_MOST + 1]; /* owned */
+} PendingProgram;
+
+static struct {
+    int depth; /* of programs_begin */
+    PendingProgram *of;
+    size_t count, capacity;
+} pending;
+
+static void pending_free(PendingProgram *one)
 {
-    const GLuint program = program_begin(label, stages, defines, error);
-    if (!program || program_finish(program, label, stages, defines, error))
+    free(one->defines);
+    for (int i = 0; one->stages[i]; i++)
+        free((char *)one->stages[i]);
+}
+
+/* Returns false if memory is short. */
+static bool pending_add(GLuint program, const char *label, const char *const stages[], const char *defines)
+{
+    if (pending.count == pending.capacity) {
+        const size_t more = 2 * pending.capacity + 32;
+        PendingProgram *grown = realloc(pending.of, more * sizeof *grown);
+        if (!grown)
+            return false;
+        pending.of = grown;
+        pending.capacity = more;
+    }
+    PendingProgram one = {.program = program, .defines = defines ? strdup(defines) : NULL};
+    bool copied = !defines || one.defines;
+    snprintf(one.label, sizeof one.label, "%s", label);
+    for (int i = 0; copied && stages[i]; i++)
+        copied = (one.stages[i] = strdup(stages[i])) != NULL;
+    if (copied)
+        pending.of[pending.count++] = one;
+    else
+        pending_free(&one);
+    return copied;
+}
+
+void programs_begin(void)
+{
+    pending.depth++;
+}
+
+bool programs_finish(Error *error)
+{
+    bool done = true;
+    if (--pending.depth > 0)
+        return true;
+    for (size_t i = 0; i < pending.count; i++) {
+        PendingProgram *one = &pending.of[i];
+        if (done && glIsProgram(one->program)) /* a failed owner has deleted the programs */
+            done = program_finish(one->program, one->label, one->stages, one->defines, error);
+        pending_free(one);
+    }
+    pending.count = 0;
+    return done;
+}
+
+/* Finishes a program, at once or with others. */
+static GLuint finish(GLuint program, const char *label, const char *const stages[], const char *defines,
+                     Error *error)
+{
+    if (!program || (pending.depth > 0 && pending_add(program, label, stages, defines)) ||
+        program_finish(program, label, stages, defines, error))
         return program;
     glDeleteProgram(program);
     return 0;
+}
+
+unsigned program_create(const char *label, const char *const stages[], const char *defines, Error *error)
+{
+    return finish(program_begin(label, stages, defines, error), label, stages, defines, error);
+}
+
+unsigned program_create_captured(const char *label, const char *const stages[], const char *defines,
+                                 const char *output, Error *error)
+{
+    return finish(begin(label, stages, defines, output, error), label, stages, defines, error);
 }
 
 unsigned program_create_pair(const char *label, const char *vertex, const char *fragment, Error *error)

@@ -135,13 +135,6 @@ static void next_shader(const Method *method, FragmentPass pass, char path[64])
     shader_of(*own, path);
 }
 
-/* Sets an output for transform feedback, which requires linking again. */
-static void capture(unsigned program, const char *output)
-{
-    glTransformFeedbackVaryings(program, 1, &output, GL_INTERLEAVED_ATTRIBS);
-    glLinkProgram(program);
-}
-
 static unsigned pass_create(const Fragment *f, FragmentPass pass, const char *constant_lines, Error *error)
 {
     char vertex[64], next[64], text[4096];
@@ -149,9 +142,10 @@ static unsigned pass_create(const Fragment *f, FragmentPass pass, const char *co
     next_shader(f->constants->method, pass, next);
     snprintf(text, sizeof text, "%s%s", passes[pass].defines, constant_lines);
     const char *const stages[] = {vertex, next, NULL};
-    const unsigned program = program_create(next + strlen("sim/"), stages, text, error);
-    if (program && (pass == FRAGMENT_WAITING || pass == FRAGMENT_ORDER))
-        capture(program, "waiting");
+    const bool captures = pass == FRAGMENT_WAITING || pass == FRAGMENT_ORDER;
+    const char *label = next + strlen("sim/");
+    const unsigned program = captures ? program_create_captured(label, stages, text, "waiting", error)
+                                      : program_create(label, stages, text, error);
     for (int s = 0; program && s < FRAGMENT_SAMPLER_COUNT; s++) {
         const GLint at = glGetUniformLocation(program, samplers[s]);
         if (at >= 0)
@@ -263,7 +257,7 @@ static unsigned framebuffer_create(const unsigned *targets, int count)
     return framebuffer;
 }
 
-/* The framebuffer of these targets: a driver checks new attachments. */
+/* The framebuffer of the targets: a driver checks new attachments. */
 static unsigned framebuffer_of(Fragment *f, const unsigned *targets, int count)
 {
     unsigned set[3] = {0};
