@@ -144,11 +144,41 @@ static void a_wrong_guess_leaves_no_trace(void **state)
     }
 }
 
+/* ---- sums of a solver ---- */
+
+/* With room for more particles, and particles in more than the least number of groups: the CPU's residuals.
+ */
+static void many_groups_sum_as_the_cpu(void **state)
+{
+    (void)state;
+    WorldDef def = pool_def("compute", "dfsph");
+    def.spacing = 0.025;
+    def.dt = 0.002;
+    def.most = 100000;
+    add_emit(&def.fluids[0],
+             (Emit){.centre = {0, 0.5, 0}, .direction = {0, -1, 0}, .radius = 0.05, .speed = 1, .start = 9});
+    World *gpu = world_on(def, "compute"), *cpu = world_on(def, "cpu");
+    fixture_step(gpu, 2);
+    fixture_step(cpu, 2);
+    const WorldInfo one = info_of(gpu), two = info_of(cpu);
+    assert_in_range(one.count, 64 * COMPUTE_GROUP + 1, 100000);
+    for (int k = 0; k < SOLVES_OF_METHOD; k++) {
+        const StepSolve *a = &one.solves[k], *b = &two.solves[k];
+        printf("%g and %g iterations, mean %.4g and %.4g, most %.4g and %.4g\n", a->iterations, b->iterations,
+               a->mean, b->mean, a->most, b->most);
+        assert_true(a->iterations == b->iterations && b->mean > 0);
+        assert_true(fabs(a->mean - b->mean) < 0.01 * b->mean && fabs(a->most - b->most) < 0.05 * b->most);
+    }
+    world_destroy(gpu);
+    world_destroy(cpu);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(a_step_makes_so_many_calls, no_gl_errors),
         cmocka_unit_test_teardown(a_wrong_guess_leaves_no_trace, no_gl_errors),
+        cmocka_unit_test_teardown(many_groups_sum_as_the_cpu, no_gl_errors),
     };
     return cmocka_run_group_tests_name("gl.calls", tests, compare_setup, context_teardown);
 }
