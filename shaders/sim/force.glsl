@@ -89,6 +89,7 @@ Side wall_side(uint b)
 }
 
 #define FORCES_BEGIN boundary_side = wall_side(boundary_by);
+#define FORCES_IMAGE boundary_side.volume = 0.0;
 #ifndef FORCES_FORCE
 #define FORCES_FORCE(i, term, d, r2) pair_force(side_of(i, term), boundary_side, d, r2)
 #endif

@@ -23,9 +23,12 @@ vec3 walls_lift(vec3 x)
     return lift;
 }
 
-// The resulting acceleration of a particle at x with rest density `density`, pressure p and gravity g.
-vec3 lift_at(vec3 x, vec3 g, float density, float p)
+// Part of the share: fades in with the pressure p of a layer of a fluid with rest density `density`.
+float lift_fade(vec3 g, float density, float p)
 {
-    float layer = density * spacing * length(g), fade = layer > 0.0 ? clamp(p / layer - LIFT_FROM, 0.0, 1.0) : 0.0;
-    return -fade * walls_lift(x) * g;
+    float layer = density * spacing * length(g);
+    return layer > 0.0 ? clamp(p / layer - LIFT_FROM, 0.0, 1.0) : 0.0;
 }
+
+// The resulting acceleration of a particle at x.
+vec3 lift_at(vec3 x, vec3 g, float density, float p) { return -lift_fade(g, density, p) * walls_lift(x) * g; }

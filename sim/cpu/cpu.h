@@ -253,12 +253,13 @@ typedef struct CpuLoop {
     bool solids; /* also over boundary particles; otherwise over runs of own fluid particles */
 } CpuLoop;
 
-/* Fluid particle i next to boundary particle b. */
+/* Fluid particle i next to boundary particle b, or to an image of b in the walls of the box. */
 typedef struct SolidPair {
     const Cpu *cpu;
     float dt; /* of the step, s */
     size_t i, b;
     float d[3], r; /* x_i - x_b, m; its length in (0, h) */
+    float volume;  /* of b in friction, 1 / n; 0 for an image: without friction */
 } SolidPair;
 
 /* Force of b on i, N in units of Constants.unit_volume. */

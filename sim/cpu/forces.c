@@ -148,55 +148,78 @@ typedef struct SolidPass {
     float dt;
 } SolidPass;
 
-/* Push of fluid particle i on boundary particle b. */
-static void add_pair(const SolidPass *pass, const float from[3], size_t i, size_t b, Push *sum)
+/* A boundary particle, or an image of the particle in the walls, as fluid in a row of cells sees it. The push
+   of an image across the walls counts for the box, and the push along the walls for the solid: a plate from
+   wall to wall bears all fluid. */
+typedef struct SolidView {
+    size_t b;
+    float x[3], along[3]; /* along: 1, or 0 across a wall */
+    float volume;         /* SolidPair.volume */
+} SolidView;
+
+/* Push of fluid particle i. */
+static void add_pair(const SolidPass *pass, const SolidView *from, size_t i, Push *sum)
 {
     const CpuParticles *p = &pass->cpu->now;
     const float h = pass->cpu->constants->support_radius;
-    SolidPair pair = {pass->cpu, pass->dt, i, b, {p->x[i] - from[0], p->y[i] - from[1], p->z[i] - from[2]},
-                      0};
-    const float *d = pair.d, r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-    float force[3];
+    const size_t b = from->b;
+    SolidPair pair = {.cpu = pass->cpu, .dt = pass->dt, .i = i, .b = b, .volume = from->volume};
+    const float x[3] = {p->x[i], p->y[i], p->z[i]};
+    float force[3], r2 = 0;
+    double push[3];
+    for (int k = 0; k < 3; k++) {
+        pair.d[k] = x[k] - from->x[k];
+        r2 += pair.d[k] * pair.d[k];
+    }
     pair.r = sqrtf(r2);
     if (pair.r >= h || pair.r < 1e-6F * h)
         return;
     pass->force(&pair, force);
-    const double t = -(double)pass->dt;
-    push_at(sum, (double[]){(double)p->x[b], (double)p->y[b], (double)p->z[b]},
-            (double[]){t * (double)force[0], t * (double)force[1], t * (double)force[2]});
+    for (int k = 0; k < 3; k++)
+        push[k] = -(double)pass->dt * (double)(from->along[k] * force[k]);
+    push_at(sum, (double[]){(double)p->x[b], (double)p->y[b], (double)p->z[b]}, push);
 }
 
 /* Adds the fluid in entries [begin, end) of Cpu.fluid_at, cell by cell. Ghosts are left to their owners. */
-static void add_fluid(const SolidPass *pass, const float from[3], size_t begin, size_t end, size_t b,
+static void add_fluid(const SolidPass *pass, const SolidView *from, size_t begin, size_t end,
                       CpuForceSums *sums)
 {
     const Cpu *cpu = pass->cpu;
-    const int whom = 1 + cpu->now.fluid[b] - FLUIDS_MAX;
+    const int whom = 1 + cpu->now.fluid[from->b] - FLUIDS_MAX;
     for (size_t k = begin; k < end;) {
         Push of_cell = {.force = {0}};
         const uint32_t cell = cpu->cell[cpu->fluid_at[k]];
         const bool own = cpu_owns(cpu, cpu->fluid_at[k]);
         for (; k < end && cpu->cell[cpu->fluid_at[k]] == cell; k++)
             if (own)
-                add_pair(pass, from, cpu->fluid_at[k], b, &of_cell);
+                add_pair(pass, from, cpu->fluid_at[k], &of_cell);
         if (own)
             cpu_force_sums_add(sums, whom, &of_cell);
     }
 }
 
+/* Fluid near an image is as near to the boundary particle: the same cells. */
 static void add_boundary(const SolidPass *pass, const PairArgs *args, size_t b, CpuForceSums *sums)
 {
     const Cpu *cpu = pass->cpu;
     const CpuParticles *p = &cpu->now;
+    const Constants *s = cpu->constants;
     CellRow rows[CELL_ROWS];
-    if (cpu->cell[b] == cpu->constants->cells.count)
+    WallImage image[IMAGES_MAX];
+    if (cpu->cell[b] == s->cells.count)
         return;
-    const int count = cell_rows(cpu->constants, args->fold, args->cell_start, cpu->cell[b], rows);
-    for (int row = 0; row < count; row++) {
-        const float *shift = rows[row].shift,
-                    from[3] = {p->x[b] + shift[0], p->y[b] + shift[1], p->z[b] + shift[2]};
-        add_fluid(pass, from, cpu->fluid_before[rows[row].begin], cpu->fluid_before[rows[row].end], b, sums);
-    }
+    const int count = cell_rows(s, args->fold, args->cell_start, cpu->cell[b], rows);
+    const int images = wall_images(&s->walls, (float[]){p->x[b], p->y[b], p->z[b]}, s->support_radius, image);
+    for (int m = 0; m < images; m++)
+        for (int row = 0; row < count; row++) {
+            SolidView from = {.b = b, .volume = m == 0 ? p->volume[b] : 0};
+            for (int k = 0; k < 3; k++) {
+                from.x[k] = image[m].x[k] + rows[row].shift[k];
+                from.along[k] = image[m].sign[k] > 0 ? 1 : 0;
+            }
+            add_fluid(pass, &from, cpu->fluid_before[rows[row].begin], cpu->fluid_before[rows[row].end],
+                      sums);
+        }
 }
 
 static void solid_range(void *context, size_t begin, size_t end)

@@ -3,6 +3,7 @@
    projected Gauss and Seidel. */
 #include "tests/sim/fixture.h"
 
+#include "shaders/sim/shared/share_most.h"
 #include "sim/cpu/cpu.h"
 #include "sim/methods/dfsph/dfsph_private.h"
 #include "sim/step/world.h"

@@ -20,35 +20,6 @@ static WorldDef ball_def(int dimensions)
     return def;
 }
 
-static double distance(const World *world, size_t i, size_t j, double d[3])
-{
-    const CpuParticles *p = &((const Cpu *)world->state)->now;
-    d[0] = (double)p->x[i] - (double)p->x[j];
-    d[1] = (double)p->y[i] - (double)p->y[j];
-    d[2] = (double)p->z[i] - (double)p->z[j];
-    return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-}
-
-/* Upward force of all boundary particles in the velocity solver, N: the sum of 2 k_i over the pushed
-   particles. */
-static double lift(const World *world)
-{
-    const Cpu *cpu = world->state;
-    const Constants *s = cpu->constants;
-    const Kernel *kernel = &shape_kernels[DFSPH_KERNEL];
-    const double h = (double)s->support_radius;
-    double sum = 0;
-    for (size_t i = 0; i < cpu->count; i++)
-        for (size_t b = 0; b < cpu->count && cpu->now.fluid[i] < FLUIDS_MAX; b++) {
-            double d[3] = {0};
-            const double r = cpu->now.fluid[b] < FLUIDS_MAX ? h : distance(world, i, b, d);
-            if (r < h)
-                sum += 2 * (double)cpu->now.own[KEPT][i] * s->lattice.density_scale *
-                       kernel->derivative(r, h) * d[1] / r;
-        }
-    return pow(s->unit_volume, 2) * sum;
-}
-
 typedef struct Rest {
     double lift; /* N */
     double near; /* mean of p - rho0 g depth next to the solid, over rho0 g H */
@@ -81,10 +52,15 @@ static Rest at_rest(const WorldDef *def)
     enum { STEPS = 100, TIMES = 10 };
     World *world = fixture_world(def);
     Rest rest = {0};
+    Error error = {0};
+    Forces forces;
+    assert_true(world_enable_forces(world, &error));
     fixture_step(world, STEPS);
+    world_forces(world, &forces);
     for (int k = 0; k < TIMES; k++) {
         fixture_step(world, 5);
-        rest.lift += lift(world) / TIMES;
+        world_forces(world, &forces);
+        rest.lift += forces.solid[0].force[1] / TIMES;
         rest.near += pressure_near(def, world) / TIMES;
     }
     world_destroy(world);

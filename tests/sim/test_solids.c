@@ -370,6 +370,40 @@ static void a_plate_drags_fluid_only_where_it_sticks(void **state)
     }
 }
 
+/* A plate from wall to wall, thicker than the support, bears all fluid: the box bears no weight. Where images
+   of the plate in the walls counted for the box, it had 7 to 11 % of these narrow columns. */
+static void a_plate_from_wall_to_wall_bears_the_fluid(void **state)
+{
+    (void)state;
+    for (int m = 0; m < fixture_methods(); m++)
+        for (int dimensions = 2; dimensions <= 3; dimensions++) {
+            const double wide = 0.8, thick = 0.4, deep = 0.8;
+            WorldDef def = fixture_def(wide, thick + deep + 0.4, wide);
+            snprintf(def.method, sizeof def.method, "%s", fixture_method_names[m]);
+            def.dimensions = dimensions;
+            def.support = dimensions == 2 ? 3 : 2.1;
+            def.sound_speed = 40;
+            def.dt = 0.001;
+            fixture_block(&def, 0, -wide / 2, thick, -wide / 2, wide / 2, thick + deep, wide / 2);
+            def.solids[def.solid_count++] = (SolidDef){.kind = SOLID_BOX,
+                                                       .centre = {0, thick / 2, 0},
+                                                       .size = {wide, thick, wide},
+                                                       .axis = {0, 1, 0}};
+            World *world = fixture_world(&def);
+            Error error = {0};
+            Forces forces;
+            assert_true(world_enable_forces(world, &error));
+            fixture_step(world, 50);
+            world_forces(world, &forces);
+            const double weight = 9810 * wide * deep * (dimensions == 3 ? wide : 1);
+            printf("%s, %dD: plate %.3f, box %.4f of the weight\n", def.method, dimensions,
+                   -forces.solid[0].force[1] / weight, -forces.box.force[1] / weight);
+            assert_float_equal(forces.solid[0].force[1], -weight, 0.2 * weight); /* mueller rings */
+            assert_float_equal(forces.box.force[1], 0, 0.002 * weight);
+            world_destroy(world);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -380,6 +414,7 @@ int main(void)
         cmocka_unit_test(save_load_step_is_step),
         cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test(a_plate_drags_fluid_only_where_it_sticks),
+        cmocka_unit_test(a_plate_from_wall_to_wall_bears_the_fluid),
     };
     return cmocka_run_group_tests_name("sim.solids", tests, NULL, NULL);
 }

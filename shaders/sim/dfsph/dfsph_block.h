@@ -23,9 +23,6 @@
 /* Longest way of a particle by the solver of density in a step, spacings. */
 #define MOVE_MOST 0.2F
 
-/* Greatest share of a solid among a particle's neighbours along the solid: for fluid between two solids. */
-#define SHARE_MOST 0.5F
-
 /* Part of surface_slope below which a particle is no part of a surface: fluid out of order has some slope
    everywhere. */
 #define SURFACE_FROM 0.35F

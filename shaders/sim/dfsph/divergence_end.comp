@@ -15,22 +15,18 @@ layout(std430, binding = NEAR_BUFFER) readonly buffer Near { vec4 near[]; };
 
 uint boundary_by;
 
-layout(std430, binding = PUSHES_BUFFER) readonly buffer Pushes { vec4 push[]; };              // accelerations, k
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
-#include "sim/dfsph/along.glsl"
+#include "sim/incompressible/solids.glsl"
+#include "sim/scratch.glsl"
 
-// k for the pushed particle, k for the boundary particle itself; along the solid: push_solid in sim/methods/dfsph/dfsph_passes.c.
 vec3 push_solid(uint i, vec3 d, float r2)
 {
-    vec3 slope = gradient * shape(sqrt(r2) * inverse_support) * d, force = 2.0 * own[OWN_kept_term + i] * slope;
-    float share = scratch[SCRATCH_solid_share + i];
-    if (share <= 0.0)
-        return force;
-    float part = dot(slope, along_solid(i, d)) / float(dimensions - 1) * rest_number_density / pressure_of_term;
-    return force + part * share_of(i) / share * fluids[FLUID_OF(i)].mass * along_solid(i, push[i].xyz);
+    float f = gradient * shape(sqrt(r2) * inverse_support);
+    return fluids[FLUID_OF(i)].mass * solid_part(column_of(SCRATCH_solid_slope, i), d, f) * column_of(SCRATCH_solid_by, i);
 }
 
 #define FORCES_BEGIN
+#define FORCES_IMAGE
 #define FORCES_FORCE(i, term, d, r2) push_solid(i, d, r2)
 #include "sim/solid_forces.glsl"
 #else

@@ -13,29 +13,9 @@ layout(std430, binding = NEAR_BUFFER) writeonly buffer Near { vec4 near[]; };   
 void solid_add(vec3 force, vec3 d);
 #endif
 #include "sim/incompressible/sums.glsl"
+#include "sim/incompressible/solids.glsl"
 #include "sim/own.glsl"
 #include "sim/scratch.glsl"
-
-#ifdef SOLIDS
-// Over boundary particles: sums of F x, of F x x^T.
-vec3 solid_slope = vec3(0);
-mat3 solid_squares = mat3(0);
-
-void solid_add(vec3 force, vec3 d)
-{
-    solid_slope += force;
-    solid_squares += outerProduct(force, d);
-}
-
-// The mean of F y^2 over directions y along the solid: along in sim/methods/dfsph/pairs_dfsph.c.
-float along()
-{
-    float square = dot(solid_slope, solid_slope), all = solid_squares[0].x + solid_squares[1].y + solid_squares[2].z;
-    if (square == 0.0)
-        return 0.0;
-    return (all - dot(solid_slope, solid_squares * solid_slope) / square) / float(dimensions - 1);
-}
-#endif
 
 // What a surface lacks: lack_of in sim/methods/dfsph/dfsph_passes.c.
 float lack_of(vec3 slope, float full)
@@ -55,7 +35,9 @@ void main()
     float d = max(dot(whole, whole) / mass + squares, least_squares / mass);
 #ifdef SOLIDS
     column_set(SCRATCH_solid_slope, i, solid_slope);
-    scratch[SCRATCH_solid_share + i] = along() * rest_number_density / pressure_of_term;
+    vec2 shares = solid_shares();
+    scratch[SCRATCH_solid_share + i] = shares.x;
+    scratch[SCRATCH_solid_lift + i] = shares.y;
 #endif
     vec3 slope = whole - twice;
 #ifdef SOLIDS

@@ -13,7 +13,8 @@ layout(std430, binding = ACCELERATIONS_BUFFER) readonly buffer Accelerations { v
 #include "sim/incompressible/push.glsl"
 #include "sim/dfsph/flown.glsl"
 #if defined DIVERGENCE && defined SOLIDS
-#include "sim/dfsph/along.glsl"
+#include "sim/incompressible/solids.glsl"
+#include "sim/scratch.glsl"
 #endif
 
 // The kick comes after the solver of divergence.
@@ -36,9 +37,9 @@ void main()
     walk_pairs(i, x);
     vec3 pressed = gradient * whole / fluids[FLUID_OF(i)].mass;
 #if defined DIVERGENCE && defined SOLIDS
-    float share = share_of(i);
-    if (share > 0.0)
-        pressed += share / (1.0 - share) * along_solid(i, pressed);
+    vec3 slope = column_of(SCRATCH_solid_slope, i), along = solid_along(slope, scratch[SCRATCH_solid_share + i], pressed);
+    column_set(SCRATCH_solid_by, i, 2.0 * own_term / fluids[FLUID_OF(i)].mass * slope + along);
+    pressed += along;
 #endif
     push[i] = vec4(pressed, own_term);
     move[i] = vec4(flown(velocity[i].xyz, x, accelerated(i, pressed), dt), velocity[i].w);

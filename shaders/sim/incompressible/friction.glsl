@@ -3,6 +3,7 @@
 // different from `friction_gradient`.
 #define KERNEL_WENDLAND_C2 1
 #include "sim/force.glsl"
+#include "sim/images.glsl"
 #include "sim/shapes.glsl"
 #ifndef FRICTION
 #define FRICTION friction_gradient
@@ -21,7 +22,6 @@ vec3 pair_force(Side one, Side other, vec3 d, float r2)
 }
 
 #if defined RUBS && !defined NO_SLIP
-#include "sim/images.glsl"
 Side image_side; // self_side with the velocity in the mirror
 vec3 image_force;
 

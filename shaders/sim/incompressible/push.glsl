@@ -5,4 +5,13 @@ float own_term; // the particle's k; neighbours' k are in their places
 
 void pair(uint j, vec3 d, float q, float term) { part += (own_term + term) * shape(q) * d; }
 
-void boundary_pair(uint j, vec3 d, float q) { part += BOUNDARY_TIMES * own_term * shape(q) * d; }
+#ifndef BOUNDARY_SEEN // as in sums.glsl
+#define BOUNDARY_SEEN(force, d)
+#endif
+
+void boundary_pair(uint j, vec3 d, float q)
+{
+    vec3 slope = shape(q) * d;
+    part += BOUNDARY_TIMES * own_term * slope;
+    BOUNDARY_SEEN(gradient * mirror * slope, mirror * d)
+}

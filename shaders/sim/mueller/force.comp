@@ -3,6 +3,7 @@
 #define LISTS_LATER
 #include "sim/constants.glsl"
 #include "sim/force.glsl"
+#include "sim/images.glsl"
 #include "sim/mueller/kernel.glsl"
 
 float volume_of(uint i) { return velocity[i].w; }
@@ -23,7 +24,6 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
 #ifdef FORCES_ON_SOLIDS
 #include "sim/solid_forces.glsl"
 #else
-#include "sim/images.glsl"
 #include "sim/wall_lift.glsl"
 layout(std430, binding = PRESSURES_BUFFER) readonly buffer Pressures { vec2 pressure[]; }; // p, p V^2
 

@@ -10,9 +10,6 @@ layout(location = PASS_DT_AT) uniform float dt;
 // x before the fall of a step at rest in the box, as far as the walls let: rise_run.
 vec3 unfallen(vec3 x)
 {
-#ifdef SOLIDS
-    return x;
-#endif
     precise vec3 fall = dt * dt * apparent_at(x), to = x - fall; // as the cpu rounds
 #ifdef PERIODIC
     bvec3 open = bvec3(periodic[0], periodic[1], periodic[2]);
@@ -37,6 +34,10 @@ void main()
     own[OWN_term + i] = k;
     for (uint a = 0u; a < 3u; a++)
         own[a * OWN_STRIDE + OWN_moved + i] = 0.0;
+#ifdef SOLIDS
+    for (uint a = 0u; a < 3u; a++)
+        own[a * OWN_STRIDE + OWN_solid_by + i] = 0.0;
+#endif
     scratch[SCRATCH_change + i] = scratch[SCRATCH_way + i] = 0.0;
     near[i] = vec4(unfallen(x), dt * dt * k);
     make_list(i, x);

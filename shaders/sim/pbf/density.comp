@@ -2,13 +2,19 @@
 // pack_motion in sim/methods/pbf/pbf_passes.c.
 #define LISTS_LATER
 #define MOMENTUM PBF_MOMENTUM
+#define BOUNDARY_TIMES 2.0 // boundary particles push with the particle's k too: sim/methods/shared/incompressible.h
 #include "shaders/sim/pbf/pbf_block.h"
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };       // w: volume, m3
 layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };     // w: volume
 layout(std430, binding = NEAR_BUFFER) writeonly buffer Near { vec4 near[]; };           // w: growth of k, times dt^2
 layout(std430, binding = MOTIONS_BUFFER) writeonly buffer Motions { vec4 motion[]; };   // velocities at the step's end, volume
 layout(location = PASS_DT_AT) uniform float dt;
+#ifdef SOLIDS
+#define BOUNDARY_SEEN(force, d) solid_add(force, d);
+void solid_add(vec3 force, vec3 d);
+#endif
 #include "sim/incompressible/sums.glsl"
+#include "sim/incompressible/solids.glsl"
 #include "sim/incompressible/jacobi.glsl"
 #include "sim/own.glsl"
 #include "sim/scratch.glsl"
@@ -33,6 +39,9 @@ void main()
     float residual = ratio - 1.0 - (1.0 - PBF_SHARE(settle_rate * dt)) * found(own[OWN_before + i] - 1.0);
     float factor = 1.0 / (dot(whole, whole) / mass + squares + least_squares / mass);
     float k = own[OWN_term + i], change = next_term(k, residual, factor, scratch[SCRATCH_change + i]) - k;
+#ifdef SOLIDS
+    column_set(SCRATCH_solid_slope, i, solid_slope);
+#endif
     scratch[SCRATCH_compressed + i] = ratio - 1.0;
     scratch[SCRATCH_miss + i] = miss_of(residual, k);
     scratch[SCRATCH_change + i] = change;

@@ -7,17 +7,27 @@
 layout(std430, binding = MOTIONS_BUFFER) readonly buffer Motions { vec4 motion[]; }; // velocities at the step's end, volume
 layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };
 layout(location = PASS_DT_AT) uniform float dt;
-#define FORCES_FORCE(i, term, d, r2) \
-    pair_force(side_of(i, term), boundary_side, d, r2) + own[OWN_term + i] * gradient * shape(sqrt(r2) * inverse_support) * d
+#ifdef FORCES_ON_SOLIDS
+#define FORCES_FORCE(i, term, d, r2) (pair_force(side_of(i, term), boundary_side, d, r2) + by_solid(i, d, r2))
+vec3 by_solid(uint i, vec3 d, float r2);
+#endif
 #include "sim/incompressible/friction.glsl"
+#include "sim/incompressible/solids.glsl"
 #include "sim/own.glsl"
+#include "sim/scratch.glsl"
 
 float volume_of(uint i) { return motion[i].w; }
 
 #ifdef FORCES_ON_SOLIDS
+vec3 by_solid(uint i, vec3 d, float r2)
+{
+    vec3 by = vec3(own[OWN_solid_by + i], own[OWN_STRIDE + OWN_solid_by + i], own[2u * OWN_STRIDE + OWN_solid_by + i]);
+    float part = solid_part(column_of(SCRATCH_solid_slope, i), d, gradient * shape(sqrt(r2) * inverse_support));
+    return fluids[FLUID_OF(i)].mass / (dt * dt) * part * by;
+}
+
 #include "sim/solid_forces.glsl"
 #else
-#include "sim/scratch.glsl"
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; }; // p, k
 
 void main()

@@ -1,13 +1,19 @@
 // pbf: positions by the growth of multipliers: move_one in sim/methods/pbf/pbf_passes.c.
 #define LISTS_LATER
 #define PLACES near
+#define BOUNDARY_TIMES 2.0 // boundary particles push with the particle's k too: sim/methods/shared/incompressible.h
 #include "shaders/sim/pbf/pbf_block.h"
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };
 #ifdef FIRST_MOVE
 layout(location = PASS_DT_AT) uniform float dt;
 #endif
 layout(std430, binding = NEAR_BUFFER) readonly buffer Near { vec4 near[]; }; // w: growth of k, times dt^2
+#ifdef SOLIDS
+#define BOUNDARY_SEEN(force, d) solid_add(force, d);
+void solid_add(vec3 force, vec3 d);
+#endif
 #include "sim/incompressible/push.glsl"
+#include "sim/incompressible/solids.glsl"
 #include "sim/own.glsl"
 #include "sim/place.glsl"
 #include "sim/scratch.glsl"
@@ -44,16 +50,39 @@ void hold_back(vec3 from, inout vec3 x)
     }
 }
 
+#ifdef SOLIDS
+void add_by_solid(uint i, vec3 way)
+{
+    for (uint a = 0u; a < 3u; a++)
+        own[a * OWN_STRIDE + OWN_solid_by + i] += way[a];
+}
+
+// The way by all k, `way` with what boundary particles do with the particle's k.
+vec3 pushed(uint i, vec3 way)
+{
+    vec3 along = solid_along(solid_slope, solid_shares().x, way);
+    add_by_solid(i, 2.0 * own_term / fluids[FLUID_OF(i)].mass * solid_slope + along);
+    return way + along;
+}
+#else
+#define pushed(i, way) (way)
+#endif
+
 #ifdef FIRST_MOVE
 #include "sim/wall_lift.glsl"
 
-// Fallen again, but for what the walls hold: fall_run.
+// Fallen again, but for what walls and solids hold: fall_run.
 vec3 fallen(uint i, vec3 seen)
 {
     float warm = 1.0 - min(FORGOTTEN, FORGOTTEN_RATE * (settle_rate * dt)), p = pressure_of_term * own[OWN_term + i] / warm;
     vec3 g = apparent_at(seen);
     float layer = fluids[FLUID_OF(i)].density * spacing * length(g), part = layer > 0.0 ? clamp(PBF_WALL_FADE(p / layer), 0.0, 1.0) : 0.0;
     vec3 way = -dt * dt * part * walls_lift(seen) * g;
+#ifdef SOLIDS
+    vec3 held = dt * dt * solid_hold(solid_slope, solid_shares().y, g, part);
+    add_by_solid(i, held);
+    way += held;
+#endif
     for (uint a = 0u; a < 3u; a++)
         own[a * OWN_STRIDE + OWN_moved + i] = way[a];
     return place_after(i, position[i].xyz, way);
@@ -70,7 +99,7 @@ void main()
     vec3 seen = near[i].xyz;
     own_term = near[i].w;
     walk_pairs(i, seen);
-    vec3 from = fallen(i, seen), way = shortened(gradient * whole / fluids[FLUID_OF(i)].mass), x = from, left = left_of(i);
+    vec3 from = fallen(i, seen), way = shortened(pushed(i, gradient * whole / fluids[FLUID_OF(i)].mass)), x = from, left = left_of(i);
     place_move(x, left, way);
     vec3 free = x;
     hold_back(from, x);

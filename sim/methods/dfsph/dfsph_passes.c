@@ -47,7 +47,7 @@ static float lack_of(const DfsphBlock *block, float slope, float full)
 static void finish_factor(const Cpu *cpu, size_t i)
 {
     const CpuParticles *p = &cpu->now;
-    const float *const *solid = (const float *const *)p->own + SOLID_SLOPE;
+    float *const *solid = p->own + SOLID; /* NULL: a world without solids */
     const float sx = p->ax[i] + (solid[0] ? solid[0][i] : 0), sy = p->ay[i] + (solid[1] ? solid[1][i] : 0),
                 sz = p->az[i] + (solid[2] ? solid[2][i] : 0);
     const float d = (sx * sx + sy * sy + sz * sz) * p->own[INVERSE_MASS][i] + p->own[SQUARES][i];
@@ -74,7 +74,7 @@ static void pack_masses(const CpuRange *range)
 static void factor_body(const CpuRange *range)
 {
     cpu_pairs(range, &dfsph_factor);
-    if (range->cpu->now.own[SOLID_SLOPE])
+    if (range->cpu->now.own[SOLID])
         cpu_pairs(range, &dfsph_solids);
     for (size_t i = range->begin; i < range->end; i++)
         finish_factor(range->cpu, i);
@@ -91,10 +91,33 @@ const Pass dfsph_state = {
     .reads = "position id fluid kept_term",
     .writes =
         "volume pressure pressure_term acceleration viscosity tension kind factor squares lack inverse_mass "
-        "solid_slope solid_flow solid_share",
+        "solid_slope solid_flow solid_share solid_lift",
 };
 
 /* --- accelerations except pressure --- */
+
+static void keep_by_solid(const CpuParticles *p, size_t i, const float a[3])
+{
+    for (int k = 0; k < 3; k++)
+        p->own[SOLID + SOLID_BY + k][i] = a[k];
+}
+
+/* Part of a particle's weight held by solids, as by walls: it fades in with the pressure of a layer. */
+static void hold_beside_solids(const CpuRange *range)
+{
+    const Constants *s = range->cpu->constants;
+    const CpuParticles *p = &range->cpu->now;
+    for (size_t i = range->begin; i < range->end; i++) {
+        float g[3], a[3];
+        apparent_gravity_at(range->input->apparent, (float[]){p->x[i], p->y[i], p->z[i]}, g);
+        const float layer =
+            s->density[p->fluid[i]] * s->spacing * sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+        const float fade = layer > 0 ? fminf(fmaxf(p->pressure[i] / layer - LIFT_FROM, 0), 1) : 0;
+        solid_hold(p->own + SOLID, i, g, fade, a);
+        keep_by_solid(p, i, a);
+        p->ax[i] += a[0], p->ay[i] += a[1], p->az[i] += a[2];
+    }
+}
 
 static void others_body(const CpuRange *range)
 {
@@ -107,6 +130,8 @@ static void others_body(const CpuRange *range)
             p->ax[i] = p->ay[i] = p->az[i] = 0;
     cpu_force_end(range);
     cpu_wall_lift(range, LIFT_FROM);
+    if (p->own[SOLID])
+        hold_beside_solids(range);
     for (size_t i = range->begin; i < range->end; i++) {
         p->own[OTHER][i] = p->ax[i];
         p->own[OTHER + 1][i] = p->ay[i];
@@ -118,7 +143,11 @@ static void rub_solid(const SolidPair *pair, float force[3])
 {
     const CpuParticles *p = &pair->cpu->now;
     const size_t i = pair->i, b = pair->b;
-    incompressible_rub(pair, (float[]){p->vx[b] - p->vx[i], p->vy[b] - p->vy[i], p->vz[b] - p->vz[i]}, force);
+    float rub[3];
+    incompressible_rub(pair, (float[]){p->vx[b] - p->vx[i], p->vy[b] - p->vy[i], p->vz[b] - p->vz[i]}, rub);
+    incompressible_by_solid(pair, p->own + SOLID, 1, force);
+    for (int k = 0; k < 3; k++)
+        force[k] += rub[k];
 }
 
 static const CpuPass others = {.loops = {{others_body, .walks = true}}, .solid = rub_solid};
@@ -128,8 +157,8 @@ const Pass dfsph_others = {
     .stage = STAGE_FORCE,
     .cpu = &others,
     .shader = "dfsph/force",
-    .reads = "position velocity id fluid volume pressure viscosity tension kind",
-    .writes = "acceleration other",
+    .reads = "position velocity id fluid volume pressure viscosity tension kind solid_slope solid_lift",
+    .writes = "acceleration other solid_by",
     .acts_on_solids = true,
     .mirrors = true,
 };
@@ -365,45 +394,22 @@ static void density_push(const CpuRange *range)
     go_on(range);
 }
 
-/* SOLID_SHARE, at most SHARE_MOST. */
-static float share_of(const CpuParticles *p, size_t i)
-{
-    return fminf(p->own[SOLID_SHARE][i], SHARE_MOST);
-}
-
-/* Remove the part of a vector of particle i across its solid; the part along the solid stays. */
-static void along_solid(const CpuParticles *p, size_t i, float v[3])
-{
-    const float s[3] = {p->own[SOLID_SLOPE][i], p->own[SOLID_SLOPE + 1][i], p->own[SOLID_SLOPE + 2][i]};
-    const float square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2],
-                across = square > 0 ? (s[0] * v[0] + s[1] * v[1] + s[2] * v[2]) / square : 0;
-    for (int k = 0; k < 3; k++)
-        v[k] -= across * s[k];
-}
-
-/* Add the push by the boundary particles' own k, and the part along the solid. */
+/* Push by the boundary particles' own k, and the part along the solid. */
 static void push_solids(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
     for (size_t i = range->begin; i < range->end; i++) {
-        const float push = p->pressure_term[i] * p->own[INVERSE_MASS][i], share = share_of(p, i);
-        p->ax[i] += push * p->own[SOLID_SLOPE][i];
-        p->ay[i] += push * p->own[SOLID_SLOPE + 1][i];
-        p->az[i] += push * p->own[SOLID_SLOPE + 2][i];
-        if (share <= 0) /* below 0 by rounding */
-            continue;
-        float a[3] = {p->ax[i], p->ay[i], p->az[i]};
-        along_solid(p, i, a);
-        p->ax[i] += share / (1 - share) * a[0];
-        p->ay[i] += share / (1 - share) * a[1];
-        p->az[i] += share / (1 - share) * a[2];
+        float a[3] = {p->ax[i], p->ay[i], p->az[i]}, by[3];
+        solid_push(p->own + SOLID, i, p->pressure_term[i] * p->own[INVERSE_MASS][i], a, by);
+        keep_by_solid(p, i, by);
+        p->ax[i] = a[0], p->ay[i] = a[1], p->az[i] = a[2];
     }
 }
 
 static void divergence_push(const CpuRange *range)
 {
     push(range);
-    if (range->cpu->now.own[SOLID_SLOPE])
+    if (range->cpu->now.own[SOLID])
         push_solids(range);
     go_on(range);
 }
@@ -412,10 +418,11 @@ static void divergence_push(const CpuRange *range)
 static void rate_solids(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
+    float *const *slope = p->own + SOLID + SOLID_SLOPE;
     for (size_t i = range->begin; i < range->end; i++) {
         const float *v = range->cpu->motion[i];
-        p->own[RESIDUAL][i] += p->own[SOLID_FLOW][i] - v[0] * p->own[SOLID_SLOPE][i] -
-                               v[1] * p->own[SOLID_SLOPE + 1][i] - v[2] * p->own[SOLID_SLOPE + 2][i];
+        p->own[RESIDUAL][i] +=
+            p->own[SOLID_FLOW][i] - v[0] * slope[0][i] - v[1] * slope[1][i] - v[2] * slope[2][i];
     }
 }
 
@@ -429,7 +436,7 @@ static void rate(const CpuRange *range, bool of_density)
     const bool pulls = range->cpu->constants->negative_pressure;
     float *residual = p->own[RESIDUAL];
     cpu_pairs(range, &dfsph_rate);
-    if (p->own[SOLID_SLOPE] && !of_density)
+    if (p->own[SOLID] && !of_density)
         rate_solids(range);
     const float *volume = p->volume, *k = p->pressure_term, change = dt / n0;
     const float above = of_density, below = of_density || !pulls,
@@ -461,27 +468,9 @@ static const CpuPass begins[] = {
     {.loops = {{divergence_begin}, {divergence_motion, .solids = true}}},
     {.loops = {{density_begin}, {density_motion, .solids = true}}},
 };
-/* k for the pushed particle, k for b itself; along the solid b's part of the push added by push_solids. */
 static void push_solid(const SolidPair *pair, float force[3])
 {
-    const CpuParticles *p = &pair->cpu->now;
-    const size_t i = pair->i;
-    const float *const *other = (const float *const *)p->own + OTHER;
-    float a[3] = {p->ax[i] - other[0][i], p->ay[i] - other[1][i], p->az[i] - other[2][i]}, d[3], f[3];
-    incompressible_push(pair, 2 * p->own[KEPT][i], force);
-    if (p->own[SOLID_SHARE][i] <= 0)
-        return;
-    memcpy(d, pair->d, sizeof d);
-    along_solid(p, i, a);
-    along_solid(p, i, d);
-    incompressible_push(pair, 1, f); /* F x_ib */
-    const Constants *s = pair->cpu->constants;
-    const float square = f[0] * d[0] + f[1] * d[1] + f[2] * d[2],
-                part = square / (float)(s->dimensions - 1) * s->rest_number_density /
-                       dfsph_constants(s)->pressure_of_term,
-                weight = part * share_of(p, i) / p->own[SOLID_SHARE][i] / p->own[INVERSE_MASS][i];
-    for (int k = 0; k < 3; k++)
-        force[k] += weight * a[k];
+    incompressible_by_solid(pair, pair->cpu->now.own + SOLID, 1, force);
 }
 
 static const CpuPass ends[] = {{.loops = {{divergence_end}}, .solid = push_solid},
@@ -523,7 +512,7 @@ const Pass dfsph_divergence_begin =
           "pressure_term residual change base");
 const Pass dfsph_divergence_push =
     SOLVE("divergence push", pushes[0], "divergence_push", PUSH_READS " solid_slope solid_share",
-          "pressure_term acceleration change");
+          "pressure_term acceleration change solid_by");
 const Pass dfsph_divergence_rate = SOLVE("divergence rate", rates[0], "divergence_rate",
                                          RATE_READS " solid_slope solid_flow", "residual miss");
 const Pass dfsph_divergence_end = {
@@ -550,11 +539,6 @@ static bool many_viscous(const Constants *constants)
     return constants->viscous && (constants->fluid_count > 1 || constants->solid_count > 0);
 }
 
-static bool with_solids(const Constants *constants)
-{
-    return constants->solid_count > 0;
-}
-
 #define OWN(k) .at = COLUMN_OWN(k)
 
 const ColumnDef dfsph_columns[] = {
@@ -568,9 +552,8 @@ const ColumnDef dfsph_columns[] = {
     {"change", "Pa", OWN(CHANGE), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"other", "m/s2", OWN(OTHER), 3, COLUMN_FLOAT},
     {"base", "m/s", OWN(BASE), 3, COLUMN_FLOAT},
-    {"solid_slope", "1/m", OWN(SOLID_SLOPE), 3, COLUMN_FLOAT, .flags = COLUMN_SHADERS, .needed = with_solids},
-    {"solid_flow", "1/s", OWN(SOLID_FLOW), 1, COLUMN_FLOAT, .needed = with_solids},
-    {"solid_share", "", OWN(SOLID_SHARE), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS, .needed = with_solids},
+    SOLID_COLUMN_ROWS(SOLID, COLUMN_SHADERS),
+    {"solid_flow", "1/s", OWN(SOLID_FLOW), 1, COLUMN_FLOAT, .needed = incompressible_has_solids},
     {"viscosity", "Pa s", .at = offsetof(ParticleColumns, viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
      .needed = many_viscous},
     {0},

@@ -17,12 +17,9 @@
      dn_i / dt = -sum F v_ij . x_ij                   the adjoint: pressure does no work where n stays
      D_i = |sum F x_ij|^2 / m_i + sum F^2 r^2 / m_j   effect of k_i on the rate of n_i
    Masses are in D alone: ratios of density do not matter in the sums.
-   For particle i a boundary particle has k_i, and the velocity of the solid, mirrored: 2 v_b - v_i. So
-   boundary particles count twice in force, rate and D. The solver of density uses n itself, where they count
-   once.
-   With k_i on both sides no boundary particle pushes i along the solid, and i gets only the fluid's part of
-   the gradient of pressure there. So that part of the acceleration is multiplied by 1 / (1 - s), s =
-   SOLID_SHARE.
+   For particle i a boundary particle has k_i (sim/methods/shared/incompressible.h), and the velocity of the
+   solid, mirrored: 2 v_b - v_i. So boundary particles count twice in force, rate and D. The solver of density
+   uses n itself, where they count once.
    At a free surface half of the neighbours are missing. Held to n <= n0 alone, the outermost particles would
    crowd into one dense row, a skin that the flow below can not stretch: a dead load that slows waves. So with
    solver.surface_lack the solvers hold n / n0 + LACK: LACK follows from |sum F x_ij|, which is great where
@@ -32,19 +29,17 @@
 
 /* Indices of dfsph's columns among a particle's own; k of the running solver is `pressure_term`. */
 enum {
-    KEPT,                         /* k after the last step's solver of divergence, Pa: start of the next */
-    FACTOR,                       /* 1 / D, kg/m; 0 without neighbours */
-    SQUARES,                      /* sum F^2 r^2 / m_j, m/kg */
-    LACK,                         /* what a surface lacks of n, over n0 */
-    INVERSE_MASS,                 /* m3/kg; 0 for particles of solids */
-    RESIDUAL,                     /* n / n0 - 1 at the end of the step, as predicted */
-    MISS,                         /* error of RESIDUAL: on either side where k holds; else only above 0 */
-    CHANGE,                       /* of k in the iteration before, Pa */
-    OTHER,                        /* accelerations except the running solver's, m/s2: 3 */
-    SOLID_SLOPE = OTHER + 3,      /* sum F x_ib over boundary particles b, 1/m: 3 */
-    SOLID_FLOW = SOLID_SLOPE + 3, /* sum F v_b . x_ib over boundary particles, 1/s */
-    SOLID_SHARE,                  /* boundary particles' part of sum F y^2 along the solid, over a whole
-                                     lattice's */
+    KEPT,              /* k after the last step's solver of divergence, Pa: start of the next */
+    FACTOR,            /* 1 / D, kg/m; 0 without neighbours */
+    SQUARES,           /* sum F^2 r^2 / m_j, m/kg */
+    LACK,              /* what a surface lacks of n, over n0 */
+    INVERSE_MASS,      /* m3/kg; 0 for particles of solids */
+    RESIDUAL,          /* n / n0 - 1 at the end of the step, as predicted */
+    MISS,              /* error of RESIDUAL: on either side where k holds; else only above 0 */
+    CHANGE,            /* of k in the iteration before, Pa */
+    OTHER,             /* accelerations except the running solver's, m/s2: 3 */
+    SOLID = OTHER + 3, /* SolidColumns of sim/methods/shared/incompressible.h */
+    SOLID_FLOW = SOLID + SOLID_COLUMNS, /* sum F v_b . x_ib over boundary particles, 1/s */
     BASE, /* velocities in the middle of the next step without the running solver, m/s: 3 */
 };
 

@@ -66,7 +66,7 @@ static void solid_force(const SolidPair *pair, float out[3])
                            ? cpu_slope(s->lattice.pressure_kernel, pair, s->lattice.gradient_scale) * terms
                            : s->pressure_scale * t * t * terms / pair->r;
     const float drag =
-        s->rubs ? 0.5F * s->viscosity_scale * t * p->volume[i] * p->volume[b] * cpu_pair_viscosity(pair) : 0;
+        s->rubs ? 0.5F * s->viscosity_scale * t * p->volume[i] * pair->volume * cpu_pair_viscosity(pair) : 0;
     const float u[3] = {p->vx[b] - p->vx[i], p->vy[b] - p->vy[i], p->vz[b] - p->vz[i]};
     for (int k = 0; k < 3; k++)
         out[k] = push * pair->d[k] + drag * u[k];

@@ -9,6 +9,12 @@ PAIR_LOOP(pbf_sums)
     density_sums(args, begin, end, pbf_constants(args->constants)->gradient, args->own[SQUARES], NULL);
 }
 
+PAIR_LOOP(pbf_solids)
+{
+    const PbfBlock *own = pbf_constants(args->constants);
+    solid_sums(args, begin, end, own->gradient, 1 / own->pressure_of_term, args->own + SOLID, NULL);
+}
+
 /* sum (dk_i + dk_j) F x_ij; `place` has dk. */
 PAIR_LOOP(pbf_push)
 {

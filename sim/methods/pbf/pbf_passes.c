@@ -6,6 +6,7 @@
 #include <string.h>
 
 PAIR_LOOPS(pbf_sums);
+PAIR_LOOPS(pbf_solids);
 PAIR_LOOPS(pbf_push);
 PAIR_LOOPS(pbf_friction);
 
@@ -81,11 +82,16 @@ static void begin_body(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
     const float warm = warm_part(range);
+    float *const *by = p->own + SOLID + SOLID_BY; /* NULL: a world without solids */
     for (size_t i = range->begin; i < range->end; i++) {
         fill(range->cpu, i);
         p->own[TERM][i] *= of_fluid(range->cpu, i) ? warm : 0;
         p->own[APPLIED][i] = 0;
-        p->own[MOVED][i] = p->own[MOVED + 1][i] = p->own[MOVED + 2][i] = 0;
+        for (int k = 0; k < 3; k++) {
+            p->own[MOVED + k][i] = 0;
+            if (by[k])
+                by[k][i] = 0;
+        }
     }
 }
 
@@ -113,8 +119,7 @@ static inline void rise_run(const CpuRange *range, const bool wide)
     const CpuParticles *p = &range->cpu->now;
     const WallsFar box = walls_far(&range->cpu->constants->walls, 0);
     float *const x[3] = {p->x, p->y, p->z};
-    const bool solids = range->cpu->constants->solid_count > 0;
-    const float dt2 = solids ? 0 : range->input->dt * range->input->dt;
+    const float dt2 = range->input->dt * range->input->dt;
     for (size_t i = range->begin; i < range->end; i++) {
         float g[3];
         apparent_gravity_at(range->input->apparent, (float[]){p->x[i], p->y[i], p->z[i]}, g);
@@ -136,6 +141,20 @@ static void rise_body(const CpuRange *range)
         rise_run(range, false);
 }
 
+/* {x, 1 / m}. */
+static void pack_place(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    for (size_t i = range->begin; i < range->end; i++)
+        memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], p->own[INVERSE_MASS][i]}, 16);
+}
+
+static void pack_for_solids(const CpuRange *range)
+{
+    if (range->cpu->now.own[SOLID])
+        pack_place(range);
+}
+
 static void pack_nothing(const CpuRange *range)
 {
     (void)range;
@@ -146,7 +165,8 @@ static const CpuPass begins[] = {
     {.loops = {{again_body, .solids = true}}},
 };
 
-#define FILL_WRITES "viscosity tension kind inverse_mass change applied way"
+#define FILL_WRITES  "viscosity tension kind inverse_mass change applied way"
+#define SOLID_WRITES "solid_slope solid_share solid_lift"
 
 const Pass pbf_begin = {
     .name = "begin",
@@ -154,7 +174,7 @@ const Pass pbf_begin = {
     .cpu = &begins[0],
     .shader = "pbf/begin",
     .reads = "position remainder id fluid term",
-    .writes = "position remainder " FILL_WRITES " residual term moved",
+    .writes = "position remainder " FILL_WRITES " residual term moved solid_by",
 };
 
 const Pass pbf_again = {
@@ -281,31 +301,55 @@ static void move_all(const CpuRange *range)
             move_one(&hold, i, false);
 }
 
+static void add_by_solid(const CpuParticles *p, size_t i, float scale, const float way[3])
+{
+    for (int k = 0; k < 3; k++)
+        p->own[SOLID + SOLID_BY + k][i] += scale * way[k];
+}
+
+static void push(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    cpu_pairs(range, &pbf_push);
+    for (size_t i = range->begin; p->own[SOLID] && i < range->end; i++) {
+        float way[3] = {p->ax[i], p->ay[i], p->az[i]}, by[3];
+        solid_push(p->own + SOLID, i, range->cpu->place[i][3], way, by);
+        p->ax[i] = way[0], p->ay[i] = way[1], p->az[i] = way[2];
+        add_by_solid(p, i, p->own[INVERSE_MASS][i], by);
+    }
+}
+
 static void move_body(const CpuRange *range)
 {
-    cpu_pairs(range, &pbf_push);
+    push(range);
     move_all(range);
 }
 
-/* The way over dt, m, by which walls hold particle i: images have their particle's multiplier, without the
-   slope that gravity gives pressure (WallLift). Under less than four layers the way fades: pressure is noise
-   there, and a dam's thin front would be held back. */
-static void walls_way(const CpuRange *range, const WallsFar *far, size_t i, float way[3])
+/* The way over dt, m, by which walls and solids hold particle i: images have their particle's multiplier,
+   without the slope that gravity gives pressure (WallLift). Under less than four layers the way fades:
+   pressure is noise there, and a dam's thin front would be held back. */
+static void held_way(const CpuRange *range, const WallsFar *far, size_t i, float way[3])
 {
     const Constants *s = range->cpu->constants;
     const CpuParticles *p = &range->cpu->now;
     const float x[3] = {p->x[i], p->y[i], p->z[i]}, dt2 = range->input->dt * range->input->dt;
-    float g[3], share[3];
+    float g[3], share[3] = {0}, held[3] = {0};
     way[0] = way[1] = way[2] = 0;
-    if (!walls_near(far, x))
+    const bool near = walls_near(far, x);
+    if (!near && !p->own[SOLID])
         return;
     apparent_gravity_at(range->input->apparent, x, g);
     const float pressure = pbf_constants(s)->pressure_of_term * p->own[TERM][i] / warm_part(range),
                 layer = s->density[p->fluid[i]] * s->spacing * sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]),
                 part = layer > 0 ? fminf(fmaxf(PBF_WALL_FADE(pressure / layer), 0), 1) : 0;
-    walls_lift(&s->lift, &s->walls, x, share);
+    if (near)
+        walls_lift(&s->lift, &s->walls, x, share);
+    if (p->own[SOLID]) {
+        solid_hold(p->own + SOLID, i, g, part, held);
+        add_by_solid(p, i, dt2, held);
+    }
     for (int k = 0; k < 3; k++)
-        way[k] = -dt2 * part * share[k] * g[k];
+        way[k] = dt2 * (held[k] - part * share[k] * g[k]);
 }
 
 /* Fall again, but for what the walls hold. */
@@ -317,7 +361,7 @@ static inline void fall_run(const CpuRange *range, const bool wide)
     float *const x[3] = {p->x, p->y, p->z};
     for (size_t i = range->begin; i < range->end; i++) {
         float way[3];
-        walls_way(range, &far, i, way);
+        held_way(range, &far, i, way);
         for (int k = 0; k < 3; k++) {
             float *const moved = &p->own[MOVED + k][i];
             place_move(&x[k][i], wide ? &p->own[COLUMNS_LEFT + k][i] : NULL, *moved + way[k]);
@@ -326,9 +370,16 @@ static inline void fall_run(const CpuRange *range, const bool wide)
     }
 }
 
+/* Before the first move, where the iterations' densities do not see particles. */
+static void solids_body(const CpuRange *range)
+{
+    if (range->cpu->now.own[SOLID])
+        cpu_pairs(range, &pbf_solids);
+}
+
 static void first_body(const CpuRange *range)
 {
-    cpu_pairs(range, &pbf_push);
+    push(range);
     if (range->cpu->constants->wide)
         fall_run(range, true);
     else
@@ -350,15 +401,18 @@ static PairCost sums_pair(const Constants *constants)
 }
 
 static const CpuPass moves[] = {
-    {.loops = {{first_body, .walks = true, .pack = pack_growth}}, .pair = push_pair},
+    {.loops = {{solids_body, .walks = true, .pack = pack_for_solids},
+               {first_body, .walks = true, .pack = pack_growth}},
+     .pair = push_pair},
     {.loops = {{move_body, .walks = true, .pack = pack_growth}}, .pair = push_pair},
 };
 
-#define MOVE(NAME, CPU, SHADER)                                                                              \
-    {                                                                                                        \
-        .name = NAME, .stage = STAGE_SOLVE, .cpu = &(CPU), .shader = "pbf/" SHADER,                          \
-        .reads = "position remainder id fluid term residual factor inverse_mass change applied moved way",   \
-        .writes = "position remainder term acceleration change applied moved way",                           \
+#define MOVE(NAME, CPU, SHADER)                                                                                     \
+    {                                                                                                               \
+        .name = NAME, .stage = STAGE_SOLVE, .cpu = &(CPU), .shader = "pbf/" SHADER,                                 \
+        .reads =                                                                                                    \
+            "position remainder id fluid term residual factor inverse_mass change applied moved way " SOLID_WRITES, \
+        .writes = "position remainder term acceleration change applied moved way solid_by",                         \
     }
 
 const Pass pbf_first = MOVE("first move", moves[0], "first");
@@ -366,20 +420,14 @@ const Pass pbf_move = MOVE("move", moves[1], "move");
 
 /* --- an iteration: number density --- */
 
-/* {x, 1 / m}. */
-static void pack_place(const CpuRange *range)
-{
-    const CpuParticles *p = &range->cpu->now;
-    for (size_t i = range->begin; i < range->end; i++)
-        memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], p->own[INVERSE_MASS][i]}, 16);
-}
-
 /* `later`: the part of the step's first compression left to later steps; of gaps too where pressure pulls. */
 static void finish_density(const Cpu *cpu, size_t i, float later)
 {
     const CpuParticles *p = &cpu->now;
     const Constants *s = cpu->constants;
-    const float sx = p->ax[i], sy = p->ay[i], sz = p->az[i], w = p->own[INVERSE_MASS][i];
+    float *const *solid = p->own + SOLID; /* NULL: a world without solids */
+    const float sx = p->ax[i] + (solid[0] ? solid[0][i] : 0), sy = p->ay[i] + (solid[1] ? solid[1][i] : 0),
+                sz = p->az[i] + (solid[2] ? solid[2][i] : 0), w = p->own[INVERSE_MASS][i];
     const float d = (sx * sx + sy * sy + sz * sz) * w + p->own[SQUARES][i],
                 ratio = p->volume[i] / s->rest_number_density;
     p->own[FACTOR][i] = 1 / (d + pbf_constants(s)->least_squares * w);
@@ -389,6 +437,13 @@ static void finish_density(const Cpu *cpu, size_t i, float later)
     p->own[RESIDUAL][i] = e;
     p->own[MISS][i] = p->own[TERM][i] > 0 || s->negative_pressure ? fabsf(e) : fmaxf(e, 0);
     p->volume[i] = 1 / p->volume[i];
+}
+
+static void sum_up(const CpuRange *range)
+{
+    cpu_pairs(range, &pbf_sums);
+    if (range->cpu->now.own[SOLID])
+        cpu_pairs(range, &pbf_solids);
 }
 
 /* k n^2: sum (k_i + k_j) F x_ij is -grad (k n^2) / n, with n at the end of a step. */
@@ -405,7 +460,7 @@ static void density_body(const CpuRange *range)
     const Cpu *cpu = range->cpu;
     float *before = cpu->now.own[BEFORE];
     const float later = 1 - PBF_SHARE(pbf_constants(cpu->constants)->settle_rate * range->input->dt);
-    cpu_pairs(range, &pbf_sums);
+    sum_up(range);
     for (size_t i = range->begin; i < range->end; i++) {
         if (before[i] == 0 && range->input->dt > 0)
             before[i] = cpu->now.volume[i] / cpu->constants->rest_number_density;
@@ -416,7 +471,7 @@ static void density_body(const CpuRange *range)
 static const CpuPass density = {.loops = {{density_body, .walks = true, .pack = pack_place}},
                                 .pair = sums_pair};
 
-#define DENSITY_WRITES "volume acceleration squares factor compressed residual miss"
+#define DENSITY_WRITES "volume acceleration squares factor compressed residual miss " SOLID_WRITES
 
 const Pass pbf_density = {
     .name = "density",
@@ -432,7 +487,7 @@ const Pass pbf_density = {
 static void settle_body(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
-    cpu_pairs(range, &pbf_sums);
+    sum_up(range);
     for (size_t i = range->begin; i < range->end; i++) {
         finish_density(range->cpu, i, 0);
         p->pressure[i] = pressure_of(range->cpu->constants, p, i);
@@ -508,7 +563,7 @@ static void force_body(const CpuRange *range)
     }
 }
 
-/* By the multipliers of the whole step, at the positions at the step's end. */
+/* By the ways of the whole step. */
 static void solid_force(const SolidPair *pair, float force[3])
 {
     const CpuParticles *p = &pair->cpu->now;
@@ -516,7 +571,7 @@ static void solid_force(const SolidPair *pair, float force[3])
     const float *vi = motion[pair->i], *vb = motion[pair->b];
     const float part = part_of(pair->cpu->constants, pair->dt);
     float drag[3];
-    incompressible_push(pair, p->own[TERM][pair->i], force);
+    incompressible_by_solid(pair, p->own + SOLID, 1 / (pair->dt * pair->dt), force);
     incompressible_rub(pair, (float[]){vb[0] - vi[0], vb[1] - vi[1], vb[2] - vi[2]}, drag);
     for (int k = 0; k < 3; k++)
         force[k] += part * drag[k];
@@ -530,7 +585,8 @@ const Pass pbf_force = {
     .stage = STAGE_FORCE,
     .cpu = &force,
     .shader = "pbf/force",
-    .reads = "position velocity id fluid volume viscosity tension kind moved term compressed",
+    .reads =
+        "position velocity id fluid volume viscosity tension kind moved term compressed solid_slope solid_by",
     .writes = "velocity acceleration pressure before",
     .acts_on_solids = true,
     .mirrors = true,
@@ -556,6 +612,7 @@ const ColumnDef pbf_columns[] = {
     {"applied", "Pa", OWN(APPLIED), 1, COLUMN_FLOAT},
     {"way", "", OWN(WAY), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"moved", "m", OWN(MOVED), 3, COLUMN_FLOAT, .flags = COLUMN_SORTED},
+    SOLID_COLUMN_ROWS(SOLID, COLUMN_SORTED),
     {"viscosity", "Pa s", .at = offsetof(ParticleColumns, viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
      .needed = many_viscous},
     {0},

@@ -17,22 +17,25 @@
      x_i by sum (dk_i + dk_j) F x_ij / m_i            dk: growth of a multiplier k, p V0^2 dt^2
      k_i by (n_i - n0) / D_i, and never below 0       without pull; less the part left to later steps
      D_i = |sum F x_ij|^2 / m_i + sum F^2 r^2 / m_j   effect of dk_i on n_i
-   The whole way of a particle, over dt, changes the velocity. */
+   The whole way of a particle, over dt, changes the velocity.
+   A boundary particle is an image of the particle that it meets: sim/methods/shared/incompressible.h. In n it
+   counts once. */
 
 /* Indices of pbf's columns among a particle's own. */
 enum {
-    TERM,         /* k / dt^2, Pa: the next step begins with a part of it */
-    BEFORE,       /* n / n0 at the step's begin; 0: not known yet */
-    FACTOR,       /* 1 / D, kg/m */
-    SQUARES,      /* sum F^2 r^2 / m_j, m/kg */
-    INVERSE_MASS, /* m3/kg; 0 for particles of solids */
-    COMPRESSED,   /* n / n0 - 1 */
-    RESIDUAL,     /* part of COMPRESSED to be removed by the step */
-    MISS,         /* error of RESIDUAL: on either side where k holds; else only above 0 */
-    CHANGE,       /* of TERM in the iteration before, Pa */
-    APPLIED,      /* part of TERM already applied to positions, Pa */
-    WAY,          /* length of the way since the lists were made, in spacings */
-    MOVED,        /* the way since the step's free flight, m: 3 */
+    TERM,              /* k / dt^2, Pa: the next step begins with a part of it */
+    BEFORE,            /* n / n0 at the step's begin; 0: not known yet */
+    FACTOR,            /* 1 / D, kg/m */
+    SQUARES,           /* sum F^2 r^2 / m_j, m/kg */
+    INVERSE_MASS,      /* m3/kg; 0 for particles of solids */
+    COMPRESSED,        /* n / n0 - 1 */
+    RESIDUAL,          /* part of COMPRESSED to be removed by the step */
+    MISS,              /* error of RESIDUAL: on either side where k holds; else only above 0 */
+    CHANGE,            /* of TERM in the iteration before, Pa */
+    APPLIED,           /* part of TERM already applied to positions, Pa */
+    WAY,               /* length of the way since the lists were made, in spacings */
+    MOVED,             /* the way since the step's free flight, m: 3 */
+    SOLID = MOVED + 3, /* SolidColumns of sim/methods/shared/incompressible.h */
 };
 
 extern const ColumnDef pbf_columns[];

@@ -1,5 +1,6 @@
 #include "sim/methods/shared/incompressible.h"
 
+#include "shaders/sim/shared/share_most.h"
 #include "sim/def/fluids.h"
 
 #include <math.h>
@@ -131,23 +132,81 @@ double incompressible_rest_residual(const Substep *step, double dt, double part,
     return fmin(allowed, fmax(fmax(fmin(part * falls, still), part * courant * courant), CALM_LEAST));
 }
 
+bool incompressible_has_solids(const Constants *constants)
+{
+    return constants->solid_count > 0;
+}
+
+/* Greatest share of a solid among a particle's neighbours: for fluid between two solids. */
+static float share_of(const float *column, size_t i)
+{
+    return fminf(fmaxf(column[i], 0), SHARE_MOST); /* below 0 by rounding */
+}
+
+/* SOLID_SLOPE and its length. */
+static float slope_of(float *const *solid, size_t i, float s[3])
+{
+    for (int k = 0; k < 3; k++)
+        s[k] = solid[SOLID_SLOPE + k][i];
+    return sqrtf(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
+}
+
+static float dot(const float a[3], const float b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+void solid_push(float *const *solid, size_t i, float push, float a[3], float by[3])
+{
+    const float share = share_of(solid[SOLID_SHARE], i), more = share / (1 - share);
+    float s[3];
+    const float size = slope_of(solid, i, s);
+    for (int k = 0; k < 3; k++) {
+        a[k] += push * s[k];
+        by[k] = 2 * push * s[k];
+    }
+    if (size == 0)
+        return;
+    const float across = dot(a, s) / (size * size);
+    for (int k = 0; k < 3; k++) {
+        const float along = more * (a[k] - across * s[k]);
+        a[k] += along;
+        by[k] += along;
+    }
+}
+
+void solid_hold(float *const *solid, size_t i, const float g[3], float part, float a[3])
+{
+    float s[3];
+    const float size = slope_of(solid, i, s), share = part * share_of(solid[SOLID_LIFT], i);
+    const float held = size > 0 ? share * dot(g, s) / (size * size) : 0;
+    for (int k = 0; k < 3; k++)
+        a[k] = -held * s[k];
+}
+
+/* F of the pair. */
 static float slope(const SolidPair *pair, double scale)
 {
     return cpu_slope(&shape_kernels[INCOMPRESSIBLE_KERNEL], pair, scale);
 }
 
-void incompressible_push(const SolidPair *pair, float k, float force[3])
+void incompressible_by_solid(const SolidPair *pair, float *const *solid, float scale, float force[3])
 {
-    const float push = k * slope(pair, pair->cpu->constants->lattice.density_scale);
-    for (int axis = 0; axis < 3; axis++)
-        force[axis] = push * pair->d[axis];
+    const Constants *constants = pair->cpu->constants;
+    const size_t i = pair->i;
+    float s[3];
+    const float size = slope_of(solid, i, s), mass = constants->mass[pair->cpu->now.fluid[i]];
+    const float f = slope(pair, constants->lattice.density_scale) * dot(s, pair->d);
+    const float part = size > 0 ? scale * mass * f / (size * size) : 0;
+    for (int k = 0; k < 3; k++)
+        force[k] = part * solid[SOLID_BY + k][i];
 }
 
 void incompressible_rub(const SolidPair *pair, const float u[3], float force[3])
 {
     const Constants *s = pair->cpu->constants;
     const float *volume = pair->cpu->now.volume;
-    const float drag = s->rubs ? slope(pair, s->lattice.gradient_scale) * volume[pair->i] * volume[pair->b] *
+    const float drag = s->rubs ? slope(pair, s->lattice.gradient_scale) * volume[pair->i] * pair->volume *
                                      cpu_pair_viscosity(pair)
                                : 0;
     for (int axis = 0; axis < 3; axis++)

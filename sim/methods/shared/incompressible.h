@@ -42,11 +42,51 @@ IncompressibleFactors incompressible_factors(const WorldDef *def, const Constant
 double incompressible_rest_residual(const Substep *step, double dt, double part, double still,
                                     double allowed);
 
+/* Solids. For particle i a boundary particle is an image of i, as the walls of the box have images: with k_i,
+   and twice in pushes. So no boundary particle pushes i along the solid, and pressure has no slope across the
+   solid. Both are added:
+   - along the solid, i gets only the fluid's part of the gradient of pressure. That part of the acceleration
+     is multiplied by 1 / (1 - s), s = SOLID_SHARE.
+   - across the solid, pressure at rest rises by rho g towards a boundary particle. So the solid bears
+     SOLID_LIFT of the weight of i, as walls_lift says for walls (sim/box/box.h). Else pressures of rows next
+     to a solid alternate. */
+
+/* Columns of a method, from a first on, of particles next to solids; F as in pair_incompressible.h. */
+enum {
+    SOLID_SLOPE,                   /* sum F x_ib over boundary particles b, 1/m: 3 */
+    SOLID_SHARE = SOLID_SLOPE + 3, /* boundary particles' part of sum F y^2 along the solid, over a whole
+                                      lattice's */
+    SOLID_LIFT,                    /* the same across the solid */
+    SOLID_BY,                      /* acceleration by the solid, m/s2, or the way over dt, m: 3 */
+    SOLID_COLUMNS = SOLID_BY + 3,
+};
+
+bool incompressible_has_solids(const Constants *constants);
+
+/* Their rows, from the method's own column `first` on; `by_flags`: of SOLID_BY. */
+#define SOLID_COLUMN_ROW(first, column, name, unit, components, is)                                          \
+    {                                                                                                        \
+        name, unit, .at = COLUMN_OWN((first) + (column)), components, COLUMN_FLOAT, .flags = (is),           \
+                    .needed = incompressible_has_solids                                                      \
+    }
+#define SOLID_COLUMN_ROWS(first, by_flags)                                                                   \
+    SOLID_COLUMN_ROW(first, SOLID_SLOPE, "solid_slope", "1/m", 3, COLUMN_SHADERS),                           \
+        SOLID_COLUMN_ROW(first, SOLID_SHARE, "solid_share", "", 1, COLUMN_SHADERS),                          \
+        SOLID_COLUMN_ROW(first, SOLID_LIFT, "solid_lift", "", 1, COLUMN_SHADERS),                            \
+        SOLID_COLUMN_ROW(first, SOLID_BY, "solid_by", "", 3, by_flags)
+
+/* Adds to acceleration or way a of particle i the pushes by the k of boundary particles, `push` SOLID_SLOPE,
+   and the part along the solid; a has the pushes by the k of i. by: all of the solid's pushes. */
+void solid_push(float *const *solid, size_t i, float push, float a[3], float by[3]);
+
+/* The acceleration by which the solid bears gravity g, m/s2; `part`: 0 to 1. */
+void solid_hold(float *const *solid, size_t i, const float g[3], float part, float a[3]);
+
 /* The pairs of sim/methods/shared/pair_incompressible.h with boundary particles, one at a time
  * (sim/cpu/forces.c). */
 
-/* Pair of push_sums: k F x_ib. */
-void incompressible_push(const SolidPair *pair, float k, float force[3]);
+/* The pair's part of `scale` SOLID_BY: by F across the solid, over SOLID_SLOPE. */
+void incompressible_by_solid(const SolidPair *pair, float *const *solid, float scale, float force[3]);
 
 /* Pair of friction_sums, with velocity u (m/s) of b relative to i; 0 if forces have no friction. */
 void incompressible_rub(const SolidPair *pair, const float u[3], float force[3]);

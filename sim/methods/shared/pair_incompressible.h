@@ -199,4 +199,81 @@ SIMD_INLINE void friction_sums(const PairArgs *args, size_t begin, size_t end, f
     }
 }
 
+/* --- solids --- */
+
+/* Sums over boundary particles of F x, of F x x^T, and of F v . x with the velocity v of a boundary
+   particle. */
+typedef struct SolidSums {
+    f8 x, y, z, xx, yy, zz, xy, yz, zx, flow;
+} SolidSums;
+
+/* `place` has 1 / m, 0 for solids; `motion`, if `flows`, velocities. */
+SIMD_INLINE void add_boundary(const PairArgs *args, const uint32_t *j, const Separation *d,
+                              const LaneVector *sign, f8 gradient, const bool flows, SolidSums *sum)
+{
+    const f8 zero = f8_splat(0), q = f8_sqrt(d->r2) * f8_splat(1 / args->constants->support_radius);
+    const f8 f = f8_masked(d->term == zero, gradient * shape(q, INCOMPRESSIBLE_KERNEL));
+    const f8 x = sign->x * d->x, y = sign->y * d->y, z = sign->z * d->z, fx = f * x, fy = f * y, fz = f * z;
+    sum->x += fx, sum->y += fy, sum->z += fz;
+    sum->xx += fx * x, sum->yy += fy * y, sum->zz += fz * z;
+    sum->xy += fx * y, sum->yz += fy * z, sum->zx += fz * x;
+    if (flows) {
+        const f8x4 v = motion(args, j);
+        sum->flow += f * (v.x * d->x + v.y * d->y + v.z * d->z);
+    }
+}
+
+SIMD_INLINE void add_boundary_images(const PairArgs *args, const WallsFar *far, size_t i, size_t begin,
+                                     size_t end, f8 gradient, const bool flows, SolidSums *sum)
+{
+    const NeighbourRange near = neighbour_range_of(args, i);
+    LaneImages images;
+    if (!images_of(args, far, i, begin, end, &images))
+        return;
+    for (int m = 1; m <= images.count; m++) {
+        const ImageParticle image = images.of[m];
+        NEIGHBOURS (near, j) {
+            const Separation d = separation(args, image.at, j);
+            add_boundary(args, j, &d, &image.sign, gradient, flows, sum);
+        }
+    }
+}
+
+/* The sums of SolidColumn into `columns`, and sum F v . x into `flow`, unless NULL. `share`: k over p. */
+SIMD_INLINE void solid_sums(const PairArgs *args, size_t begin, size_t end, float gradient, float share,
+                            float *const *columns, float *flow)
+{
+    const Constants *s = args->constants;
+    const WallsFar far = out_of_sight(s);
+    const f8 one = f8_splat(1), zero = f8_splat(0), g = f8_splat(gradient), two = f8_splat(2),
+             scale = f8_splat(share * s->rest_number_density),
+             flat = f8_splat(1 / (float)(s->dimensions - 1));
+    const LaneVector unturned = {one, one, one};
+    GROUPS (i, begin, end) {
+        const LaneVector at = place_of(args, i);
+        const NeighbourRange near = neighbour_range_of(args, i);
+        SolidSums sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
+        NEIGHBOURS (near, j) {
+            Separation d = separation(args, at, j);
+            if (__builtin_expect(near.coincident, 0))
+                d = separate_to(args, i, j, d, TWINS_PART);
+            add_boundary(args, j, &d, &unturned, g, flow != NULL, &sum);
+        }
+        add_boundary_images(args, &far, i, begin, end, g, flow != NULL, &sum);
+        const f8 x = sum.x, y = sum.y, z = sum.z, square = x * x + y * y + z * z;
+        const f8 squares = x * x * sum.xx + y * y * sum.yy + z * z * sum.zz +
+                           two * (x * y * sum.xy + y * z * sum.yz + z * x * sum.zx);
+        const i8 beside = square > zero;
+        const f8 across = f8_masked(beside, squares / greater(square, f8_splat(1e-30f)));
+        const f8 along = f8_masked(beside, sum.xx + sum.yy + sum.zz - across) * flat;
+        lanes_store(columns[SOLID_SLOPE], i, begin, end, x);
+        lanes_store(columns[SOLID_SLOPE + 1], i, begin, end, y);
+        lanes_store(columns[SOLID_SLOPE + 2], i, begin, end, z);
+        lanes_store(columns[SOLID_SHARE], i, begin, end, scale * along);
+        lanes_store(columns[SOLID_LIFT], i, begin, end, scale * across);
+        if (flow)
+            lanes_store(flow, i, begin, end, sum.flow);
+    }
+}
+
 #endif

@@ -404,7 +404,7 @@ static void solid_force(const SolidPair *pair, float out[3])
     const size_t i = pair->i, b = pair->b;
     const float *d = pair->d, most = 1 / (THINNEST * s->rest_number_density), h = s->support_radius;
     const float slope = cpu_slope(&shape_kernels[own->kernel_shape], pair, s->lattice.gradient_scale);
-    const float both = fminf(p->volume[i], most) * fminf(p->volume[b], most);
+    const float both = fminf(p->volume[i], most) * fminf(pair->volume, most);
     const float u[3] = {p->vx[b] - p->vx[i], p->vy[b] - p->vy[i], p->vz[b] - p->vz[i]};
     const float along = u[0] * d[0] + u[1] * d[1] + u[2] * d[2], mu = cpu_pair_viscosity(pair);
     const float a = p->own[ARTIFICIAL] ? p->own[ARTIFICIAL][i] + p->own[ARTIFICIAL][b]
