@@ -1,6 +1,7 @@
 /* The solver's thread, from the thread of the window: time, commands, sessions, ends. The pictures' thread
    takes states meanwhile, as the window does; ThreadSanitizer watches. */
 #include "tests/app/output_fixture.h"
+#include "tests/patience.h"
 
 #include "app/run/offscreen.h"
 #include "app/run/session.h"
@@ -59,7 +60,7 @@ static void rig_open(Rig *rig, const char *setting, bool paused)
 
 static void rig_close(Rig *rig)
 {
-    assert_true(simulator_destroy(rig->simulator, 10000));
+    assert_true(simulator_destroy(rig->simulator, PATIENCE_MS));
     upload_destroy(rig->upload);
     recording_destroy(&rig->recording);
 }
@@ -67,7 +68,7 @@ static void rig_close(Rig *rig)
 /* Draws along until `ready` says so. */
 static void wait_for(Rig *rig, bool (*ready)(const Rig *rig))
 {
-    const double until = wall_ms() + 20000;
+    const double until = wall_ms() + PATIENCE_MS;
     do {
         simulator_status(rig->simulator, &rig->status);
         if (upload_has_new(rig->upload))
@@ -434,7 +435,7 @@ static void an_end_does_not_wait_for_ever(void **state)
     wait_for(&rig, is_held);
     assert_false(simulator_destroy(rig.simulator, 1));
     atomic_store(&holds, false);
-    assert_true(simulator_destroy(rig.simulator, 200000));
+    assert_true(simulator_destroy(rig.simulator, PATIENCE_MS));
     upload_destroy(rig.upload);
     recording_destroy(&rig.recording);
 }

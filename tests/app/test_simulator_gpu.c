@@ -1,5 +1,6 @@
 /* The solver on the window's thread with a GPU backend; and changes of backend. */
 #include "tests/app/output_fixture.h"
+#include "tests/patience.h"
 
 #include "app/run/compare/compare.h"
 #include "app/run/offscreen.h"
@@ -53,7 +54,7 @@ static void rig_open(Rig *rig, bool paused)
 
 static void rig_close(Rig *rig)
 {
-    assert_true(simulator_destroy(rig->simulator, 10000));
+    assert_true(simulator_destroy(rig->simulator, PATIENCE_MS));
     upload_destroy(rig->upload);
     recording_destroy(&rig->recording);
 }
@@ -61,7 +62,7 @@ static void rig_close(Rig *rig)
 /* Works until the step or, on a thread, waits for the step. */
 static void until_step(Rig *rig, uint64_t step)
 {
-    const double until = wall_ms() + 20000;
+    const double until = wall_ms() + PATIENCE_MS;
     do {
         simulator_work(rig->simulator, 1);
         usleep(200);
@@ -360,7 +361,7 @@ static void what_follows_and_fails_is_empty(void **state)
     assert_true(shown->count == 0 && !shown->position.buffer && !shown->births);
     assert_true(compare_message(compared, (char[1280]){0}));
     assert_false(rig.status.failed);
-    assert_true(simulator_destroy(rig.simulator, 10000));
+    assert_true(simulator_destroy(rig.simulator, PATIENCE_MS));
     compare_destroy(compared);
     recording_destroy(&rig.recording);
 }

@@ -33,6 +33,8 @@ motion:
 
 PROGRAM = None
 
+PATIENCE = 1000  # s, for all that is waited for: no time that a busy machine needs; ctest ends what hangs soon after
+
 
 def ids(tests):
     """The names of the tests of a suite."""
@@ -101,12 +103,12 @@ class CommandTest(unittest.TestCase):
         """What the program left in the folder."""
         return sorted(set(os.listdir(self.folder)) - {'scene.yaml'})
 
-    def slosh(self, *arguments, timeout=120, before=obey_interrupts, env=None, gl_errors=False):
+    def slosh(self, *arguments, before=obey_interrupts, env=None, gl_errors=False):
         """Runs the program to its end: (exit code, standard error). OpenGL has nothing to complain of, or may. Where the leak sanitizer
         dies itself, in its look behind the end, the program runs again: what it would have returned is not known."""
         for _ in range(3):
             done = subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True,
-                                  timeout=timeout, preexec_fn=before, env=env, check=False)
+                                  timeout=PATIENCE, preexec_fn=before, env=env, check=False)
             if 'LeakSanitizer has encountered a fatal error' not in done.stderr:
                 break
         if not gl_errors:
@@ -161,7 +163,7 @@ class CommandTest(unittest.TestCase):
 
     def wait_for(self, condition, process):
         """Until it holds, which it must before the program ends. Returns what the condition gave."""
-        end = time.monotonic() + 60
+        end = time.monotonic() + PATIENCE
         while not (found := condition()):
             self.assertIsNone(process.poll(), 'the program ended too early')
             self.assertLess(time.monotonic(), end, 'waited in vain')

@@ -20,7 +20,7 @@ solver: {method: wcsph, delta_sph: 0.1, sound_speed: 30, step: {dt: 0.002, subst
 class AblateTest(command.CommandTest):
     def run_it(self, *words, env=None):
         return subprocess.run([command.PROGRAM, 'bench', *words, '--ablate', '--json', 'out.json'], cwd=self.folder,
-                              capture_output=True, text=True, timeout=200, check=False, env=env)
+                              capture_output=True, text=True, timeout=command.PATIENCE, check=False, env=env)
 
     def rows(self):
         return json.loads(self.read('out.json'))
@@ -125,7 +125,7 @@ class Ablate(AblateTest):
         while 'ablate' not in process.stderr.readline():
             self.assertIsNone(process.poll(), 'the program ended too early')
         process.send_signal(signal.SIGINT)
-        out, _ = process.communicate(timeout=60)
+        out, _ = process.communicate(timeout=command.PATIENCE)
         self.assertEqual(process.returncode, 130)
         self.assertIn('the whole scene', out)
         self.assertIn('solver.delta_sph 0.1', out)

@@ -19,7 +19,7 @@ FIELDS = ["scene", "backend", "method", "view", "threads", "simd", "renderer", "
 class Case(command.CommandTest):
     def slosh_out(self, *arguments, code=0):
         done = subprocess.run([command.PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True,
-                              timeout=120, check=False)
+                              timeout=command.PATIENCE, check=False)
         self.assertEqual(done.returncode, code, done.stderr)
         return done
 
@@ -235,7 +235,7 @@ class Tables(Case):
         os.mkdir(self.path('bin'))
         done = subprocess.run([command.PROGRAM, 'bench', '--table', 'paper003-spheres', '--backend', 'cpu', '--view', 'spheres', '--frames', '1',
                                '--size', '64x64', '-o', 'chart.svg'],
-                              cwd=self.folder, capture_output=True, text=True, timeout=120, check=False,
+                              cwd=self.folder, capture_output=True, text=True, timeout=command.PATIENCE, check=False,
                               env=os.environ | {'PATH': self.path('bin')})
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn('gnuplot', done.stderr)

@@ -13,7 +13,7 @@ SMALL = ['--set', 'particles.spacing=0.2', '--time', '0.05', '--method', 'muelle
 class Chart(command.CommandTest):
     def run_it(self, *words):
         return subprocess.run([command.PROGRAM, 'chart', *words], cwd=self.folder, capture_output=True,
-                              text=True, timeout=120, check=False)
+                              text=True, timeout=command.PATIENCE, check=False)
 
     def text(self, name):
         return self.read(name).decode()
@@ -58,7 +58,7 @@ class Chart(command.CommandTest):
         self.write('tank.yaml', command.SCENE)
         for name, runs in ((command.PROGRAM, 1), (self.path('other'), 2), (command.PROGRAM, 2)):
             done = subprocess.run([name, 'chart', 'tank.yaml', '-o', 'out.svg', '--quiet', *SMALL, '--time', '0.01'],
-                                  cwd=self.folder, capture_output=True, text=True, timeout=120, check=False)
+                                  cwd=self.folder, capture_output=True, text=True, timeout=command.PATIENCE, check=False)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(len(self.text('out.csv').splitlines()), 1 + runs * 10)
 
@@ -150,7 +150,7 @@ class Chart(command.CommandTest):
 
     def test_info_explains_the_metrics(self):
         said = subprocess.run([command.PROGRAM, 'info', 'scene.yaml'], cwd=self.folder, capture_output=True,
-                              text=True, timeout=60, check=True).stdout
+                              text=True, timeout=command.PATIENCE, check=True).stdout
         self.assertIn('kinetic_energy    of the motion in the box\'s frame (J)', said)
         self.assertIn('metrics = [centre_of_mass, kinetic_energy]', said)
 

@@ -15,7 +15,7 @@ SMALL = ['--views', '--size', '64x64', '--time', '0.05']
 class ChartViewsTest(command.CommandTest):
     def run_it(self, *words, size='64x64'):
         return subprocess.run([command.PROGRAM, 'chart', 'scene.yaml', '-o', 'out.svg', *SMALL, '--size', size, *words],
-                              cwd=self.folder, capture_output=True, text=True, timeout=200, check=False)
+                              cwd=self.folder, capture_output=True, text=True, timeout=command.PATIENCE, check=False)
 
     def check_views(self, views, worse, *sets):
         """Draws them, and again, and what is lost; what is coarser, (view, settings), is farther off. Returns errors by those."""

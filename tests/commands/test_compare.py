@@ -312,7 +312,7 @@ class Words(CompareTest):
         while ' %' not in process.stderr.readline():
             self.assertIsNone(process.poll(), 'the program ended too early')
         process.send_signal(signal.SIGINT)
-        said = process.communicate(timeout=60)[1]
+        said = process.communicate(timeout=command.PATIENCE)[1]
         self.assertEqual(process.returncode, 130, said)
         times = [float(t) for t in re.findall(r'particles?, ([0-9.e+-]+) s simulated in', said)]
         self.assertEqual(len(times), 2, said)
@@ -324,7 +324,7 @@ class Words(CompareTest):
                              'particles=200,300', '--json', 'out.json')
         self.wait_for(lambda: 'frames' in self.entries(), process)
         process.send_signal(signal.SIGINT)
-        said = process.communicate(timeout=60)[1]
+        said = process.communicate(timeout=command.PATIENCE)[1]
         self.assertEqual(process.returncode, 130, said)
         self.assertRegex(said, r'stopped at t = .* s; frames is whole')
         self.assertTrue(json.loads(self.read('out.json'))['stopped'])

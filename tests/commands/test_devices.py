@@ -48,7 +48,7 @@ def recording(seconds=0.4):
 class Case(CommandTest):
     def run_devices(self, *arguments, code=0, before=obey_interrupts):
         done = subprocess.run([command.PROGRAM, 'devices', *arguments], cwd=self.folder, capture_output=True, text=True,
-                              timeout=60, preexec_fn=before, check=False)
+                              timeout=command.PATIENCE, preexec_fn=before, check=False)
         self.assertEqual(done.returncode, code, done.stderr)
         return done
 
@@ -212,7 +212,7 @@ class Devices(Case):
         process.stdout.readline()
         process.stdout.close()
         process.stdout = None
-        _, said = process.communicate(timeout=30)
+        _, said = process.communicate(timeout=command.PATIENCE)
         self.assertEqual((process.returncode, said), (1, b'slosh: standard output: Broken pipe\n'))
 
 

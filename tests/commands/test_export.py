@@ -571,7 +571,7 @@ class Signals(SeriesTest):
         process = self.begin()
         os.killpg(process.pid, signal.SIGINT)
         said = process.stderr.read()
-        self.assertEqual(process.wait(timeout=60), 130, said)
+        self.assertEqual(process.wait(timeout=command.PATIENCE), 130, said)
         self.assertRegex(said, r'^stopped at t = [0-9.]+ s; b\.pvd is whole\n$')
         count = self.read('b.pvd').count(b'timestep')
         self.assertTrue(0 < count < self.STEPS)

@@ -14,7 +14,7 @@ COARSE = ['--set', 'particles.spacing=0.25', '--time', '0.02']  # behind FEW: 32
 class FitTest(command.CommandTest):
     def fit(self, *words):
         return subprocess.run([command.PROGRAM, 'fit', *words], cwd=self.folder, capture_output=True,
-                              text=True, timeout=200, check=False)
+                              text=True, timeout=command.PATIENCE, check=False)
 
     def figures(self, *words, code=0):
         done = self.fit(*words, '--quiet', '--json', 'out.json')
@@ -56,7 +56,7 @@ class Fit(FitTest):
         self.assertEqual(self.fit(*words).returncode, 0)
         if len(os.sched_getaffinity(0)) > 1:
             alone = subprocess.run(['taskset', '-c', str(min(os.sched_getaffinity(0))), command.PROGRAM, 'fit', *words],
-                                   cwd=self.folder, capture_output=True, text=True, timeout=200, check=False)
+                                   cwd=self.folder, capture_output=True, text=True, timeout=command.PATIENCE, check=False)
             self.assertNotIn('were in scene_fit.csv already', alone.stderr)
         self.assertRegex(self.fit(*words).stderr, 'were in scene_fit.csv already')
 

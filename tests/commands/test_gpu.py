@@ -75,7 +75,7 @@ class Gpu(CommandTest):
         with open(shader, 'w', encoding='utf-8') as file:
             file.write(text.replace('position_stride', 'uint(position_stride)').replace('uniform uint uint(position_stride)', 'uniform float position_stride'))
         done = self.start('render', 'scene.yaml', '-o', 'a.png', '--time', '0', '--size', '64x64', '--shaders', 'shaders')
-        said = done.communicate(timeout=60)[1]
+        said = done.communicate(timeout=command.PATIENCE)[1]
         self.assertEqual(done.returncode, 1, said)
         self.assertRegex(said, 'GL error: \\d+ in all; what was drawn or computed may be wrong')
 

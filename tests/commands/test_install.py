@@ -49,7 +49,7 @@ class InstalledTest(CommandTest):
             program = ['unshare', '-rm', 'sh', '-c', f'mount -t tmpfs none "{ROOT}" && exec "$@"', 'sh', *program]
         for _ in range(3):  # command.py says why
             done = subprocess.run(program, cwd=self.folder, env={**os.environ, 'XDG_CONFIG_HOME': self.path('config'), **env},
-                                  capture_output=True, text=True, timeout=120, check=False)
+                                  capture_output=True, text=True, timeout=command.PATIENCE, check=False)
             if 'LeakSanitizer has encountered a fatal error' not in done.stderr:
                 break
         return done.returncode, done.stdout, done.stderr
@@ -213,7 +213,7 @@ class Library(CommandTest):
 
     @staticmethod
     def output(*words, **env):
-        done = subprocess.run(words, env={**os.environ, **env}, capture_output=True, text=True, check=False, timeout=120)
+        done = subprocess.run(words, env={**os.environ, **env}, capture_output=True, text=True, check=False, timeout=command.PATIENCE)
         assert done.returncode == 0, f'{words}: {done.stdout}{done.stderr}'
         return done.stdout
 

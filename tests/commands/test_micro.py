@@ -10,7 +10,7 @@ FEW = ("--micro", "--frames", "2", "--particles", "500")
 class Micro(command.CommandTest):
     def micro(self, *arguments):
         done = subprocess.run([command.PROGRAM, "bench", "scene.yaml", *arguments, "--json", "micro.json"], cwd=self.folder,
-                              capture_output=True, text=True, timeout=120, check=False)
+                              capture_output=True, text=True, timeout=command.PATIENCE, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads(self.read("micro.json")), done.stdout
 

@@ -6,7 +6,6 @@ import random
 import re
 import signal
 import subprocess
-import time
 
 import command
 from command import CommandTest, TinyDiskTest, limit_files, video_frames, whole_steps
@@ -119,12 +118,12 @@ solids:
         few = ['run', 'scene.yaml', '-o', 'a.h5part', '--time', '0', '--quiet', '--json']
         for name in ('-', '/dev/stdout', '/dev/fd/1'):
             done = subprocess.run([command.PROGRAM, *few, name], cwd=self.folder, capture_output=True, text=True,
-                                  timeout=120, check=False)
+                                  timeout=command.PATIENCE, check=False)
             self.assertEqual((done.returncode, done.stderr, json.loads(done.stdout)['snapshots']), (0, '', 1), name)
         with open(self.path('said'), 'w', encoding='utf8') as said:  # a file that must not be replaced
             said.write('before\n')
             said.flush()
-            subprocess.run([command.PROGRAM, *few, '/dev/stdout'], cwd=self.folder, stdout=said, timeout=120, check=True)
+            subprocess.run([command.PROGRAM, *few, '/dev/stdout'], cwd=self.folder, stdout=said, timeout=command.PATIENCE, check=True)
         self.assertRegex(self.read('said').decode(), r'^before\n\{\n')
         self.assertEqual(self.slosh(*few, '/dev/null'), (0, ''))
         self.assertEqual(self.slosh(*few, '/dev/full'),
@@ -256,7 +255,7 @@ class Unwritable(CommandTest):
     """Said at once: a simulation of a million seconds never starts."""
 
     def refused(self, command_, output, reason):
-        code, said = self.slosh(command_, 'scene.yaml', '-o', output, '--time', '1000000', timeout=60)
+        code, said = self.slosh(command_, 'scene.yaml', '-o', output, '--time', '1000000')
         self.assertEqual(code, 1, said)
         self.assertIn(reason, said)
         self.assertNotIn(' %', said)
@@ -285,7 +284,7 @@ class Unwritable(CommandTest):
 
     def test_json(self):
         code, said = self.slosh('run', 'scene.yaml', '-o', 'a.h5part', '--time', '1000000', '--json', 'no/a.json',
-                                timeout=60)
+                                timeout=command.PATIENCE)
         self.assertEqual(code, 1, said)
         self.assertIn('no/a.json: cannot be written', said)
         self.assertEqual(self.entries(), [])
@@ -595,7 +594,7 @@ class Signals(CommandTest):
         """As Ctrl-C in a terminal: to the whole process group."""
         os.killpg(process.pid, number)
         said = process.stderr.read()
-        self.assertEqual(process.wait(timeout=60), 130, said)
+        self.assertEqual(process.wait(timeout=command.PATIENCE), 130, said)
         return said
 
     def test_kill_during_run(self):
@@ -663,9 +662,7 @@ class Signals(CommandTest):
 
         process = self.start('run', 'scene.yaml', '-o', 'a.h5part', '--set', 'solids=[{mesh: {file: needles.obj, centre: [0, 0.5, 0]}}]')
         self.wait_for(lambda: is_read(process), process)
-        began = time.monotonic()
         self.assertIn('needles.obj: stopped', self.stop(process, signal.SIGINT))
-        self.assertLess(time.monotonic() - began, 10)
         self.assertEqual(self.entries(), before)
 
 

@@ -193,7 +193,7 @@ class Replay(CommandTest):
         process = self.start('replay', 'a.rec', '-o', 'a.h5part')
         self.wait_for(lambda: 'a.h5part' in self.entries(), process)
         process.send_signal(signal.SIGINT)
-        said = process.communicate(timeout=60)[1]
+        said = process.communicate(timeout=command.PATIENCE)[1]
         self.assertEqual(process.returncode, 130, said)
         self.assertRegex(said, r'stopped at step \d+ of 100000000; nothing was compared\n')
         self.assertGreater(len(whole_steps(self.path('a.h5part'))), 0)

@@ -196,7 +196,7 @@ class Resume(ResumeTest):
                          ('run', 'scene.yaml', '-o', 'b.h5part', *more),
                          ('run', 'scene.yaml', '-o', 'c.h5part', '--resume', *more),
                          ('replay', 'a.rec', '-o', 'a.h5part', '--quiet')):
-            code, said = self.slosh(*command_, timeout=60)
+            code, said = self.slosh(*command_)
             self.assertEqual(code, 1, said)
             self.assertIn(command_[3] + ': is being written by another slosh; wait for its end, or name another file\n',
                           said)

@@ -44,7 +44,7 @@ class Stability(command.CommandTest):
 
     def run_it(self, *words, before=command.obey_interrupts, scene='tank.yaml', output='out.svg'):
         return subprocess.run([command.PROGRAM, 'stability', scene, '-o', output, *SMALL, *words], cwd=self.folder,
-                              capture_output=True, text=True, timeout=120, check=False, preexec_fn=before)
+                              capture_output=True, text=True, timeout=command.PATIENCE, check=False, preexec_fn=before)
 
     def text(self, name):
         return self.read(name).decode()
@@ -59,7 +59,7 @@ class Stability(command.CommandTest):
                 except OSError:
                     pass
             return found
-        end = time.monotonic() + 30
+        end = time.monotonic() + command.PATIENCE
         while here():
             self.assertLess(time.monotonic(), end, here())
             time.sleep(0.02)

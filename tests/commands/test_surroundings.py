@@ -12,7 +12,7 @@ class Closed(CommandTest):
     def closed(self, streams, *arguments):
         """The program's exit code and what it said on the streams that are left."""
         done = subprocess.run(['sh', '-c', f'exec "$@" {streams}', 'sh', command.PROGRAM, *arguments], cwd=self.folder,
-                              capture_output=True, text=True, timeout=120, preexec_fn=obey_interrupts, check=False)
+                              capture_output=True, text=True, timeout=command.PATIENCE, preexec_fn=obey_interrupts, check=False)
         return done.returncode, done.stdout, done.stderr
 
     def run_closed(self, streams, *more, time='0.008'):

@@ -18,11 +18,9 @@ QUICK = ['hydrostatic', 'tilted', 'layers', 'layers_1000', 'growth', 'dam_break_
 
 
 class ValidateTest(command.CommandTest):
-    most_seconds = 250
-
     def run_it(self, *words, **how):
         return subprocess.run([command.PROGRAM, 'validate', *words], cwd=self.folder, capture_output=True,
-                              text=True, timeout=self.most_seconds, check=False, **how)
+                              text=True, timeout=command.PATIENCE, check=False, **how)
 
     def figures(self):
         return json.loads(self.read('out.json'))['cases']
@@ -142,7 +140,7 @@ class Validate(ValidateTest):
         while 'kinetic' not in (line := child.stdout.readline()):
             self.assertTrue(line, 'the program ended too early')
         child.send_signal(signal.SIGINT)
-        rest = child.communicate(timeout=60)
+        rest = child.communicate(timeout=command.PATIENCE)
         self.assertEqual(child.returncode, 130, rest)
         self.assertEqual({c['case'] for c in self.figures()}, {'free_fall'})
 

@@ -148,7 +148,7 @@ class Window(CommandTest):
 
     def xdo(self, *arguments):
         return subprocess.run(['xdotool', *map(str, arguments)], env=self.environment, capture_output=True, text=True,
-                              check=True, timeout=30).stdout
+                              check=True, timeout=command.PATIENCE).stdout
 
     def open(self, *arguments, size=(WIDTH, HEIGHT)):
         """Starts the window and waits until it shows its fluid."""
@@ -268,7 +268,7 @@ class Window(CommandTest):
 
     def end(self):
         """Waits for the end, which must be a good one; the session's figures."""
-        code = self.process.wait(timeout=60)
+        code = self.process.wait(timeout=command.PATIENCE)
         self.said.seek(0)
         self.messages = self.said.read()
         self.assertEqual(code, 0, self.messages)
@@ -282,7 +282,7 @@ class Window(CommandTest):
             os.remove(self.path('out.json'))
         asked = self.said_now().count('Ctrl+Q once more')
         self.key('ctrl+q')
-        end = time.monotonic() + 60
+        end = time.monotonic() + command.PATIENCE
         while self.process.poll() is None and self.said_now().count('Ctrl+Q once more') == asked and time.monotonic() < end:
             time.sleep(0.01)
         if self.process.poll() is None:
@@ -464,7 +464,7 @@ class Keys(Window):
 
     def test_the_users_layout(self):
         def layout(name):
-            subprocess.run(['setxkbmap', name], env=self.environment, check=True, timeout=30, stderr=subprocess.DEVNULL)
+            subprocess.run(['setxkbmap', name], env=self.environment, check=True, timeout=command.PATIENCE, stderr=subprocess.DEVNULL)
         self.addCleanup(layout, 'us')
         layout('de')  # where + is right of P, and Z is left of X
         self.open('still.yaml')
@@ -974,7 +974,7 @@ class Without(CommandTest):
     def test_no_display(self):
         environment = {name: value for name, value in os.environ.items() if name != 'DISPLAY'}
         done = subprocess.run([command.PROGRAM, 'play', 'scene.yaml'], cwd=self.folder, env=environment,
-                              capture_output=True, text=True, timeout=60, check=False)
+                              capture_output=True, text=True, timeout=command.PATIENCE, check=False)
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stderr, r'no display.*slosh render SCENE -o OUT\.mp4')
 

@@ -1,6 +1,7 @@
 /* A recording in the devices' place, and recordings of what the devices say. */
 #include "tests/app/output_fixture.h"
 #include "tests/device/hid_stand_in.h"
+#include "tests/patience.h"
 
 #include "app/input/device/device.h"
 
@@ -48,7 +49,7 @@ static Devices *start(const char *source, ReportLogWriter *record)
 
 static void play_to_the_end(const char *source, ReportLogWriter *record)
 {
-    const double until = wall_ms() + 20000;
+    const double until = wall_ms() + PATIENCE_MS;
     Devices *devices = start(source, record);
     while (!devices_ended(devices) && wall_ms() < until)
         pause_ms(2);
@@ -123,7 +124,7 @@ static void a_stop_does_not_wait_for_the_end(void **state)
     (void)state;
     write_text("a.rec", "slosh device recording 1\n0 1 plugged dualsense 054c:0ce6 usb\n1000 1 report 00\n");
     Devices *devices = start("file:a.rec", NULL);
-    const double until = wall_ms() + 20000;
+    const double until = wall_ms() + PATIENCE_MS;
     for (int count = 0; count < 1 && wall_ms() < until; pause_ms(2)) {
         pthread_mutex_lock(&told_lock);
         count = told_count;
@@ -204,7 +205,7 @@ static void what_is_plugged_in_is_recorded(void **state)
     push(pad, &rest);
     push(pad, &wrong);
     push(pad, &rest);
-    const double until = wall_ms() + 20000;
+    const double until = wall_ms() + PATIENCE_MS;
     for (int count = 0; count < 3 && wall_ms() < until; pause_ms(2)) { /* plugged, and two reports */
         pthread_mutex_lock(&told_lock);
         count = told_count;

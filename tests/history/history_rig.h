@@ -4,6 +4,7 @@
 #define SLOSH_HISTORY_RIG_H
 
 #include "tests/app/output_fixture.h"
+#include "tests/patience.h"
 
 #include "app/run/offscreen.h"
 #include "app/run/session.h"
@@ -59,7 +60,7 @@ static inline void rig_open(Rig *rig, const char *text, size_t history_bytes)
 
 static inline void rig_close(Rig *rig)
 {
-    assert_true(simulator_destroy(rig->simulator, 20000));
+    assert_true(simulator_destroy(rig->simulator, PATIENCE_MS));
     upload_destroy(rig->upload);
     recording_destroy(&rig->recording);
 }
@@ -76,7 +77,7 @@ static inline void rig_turn(Rig *rig)
 
 static inline void rig_ready(Rig *rig)
 {
-    const double until = wall_ms() + 20000;
+    const double until = wall_ms() + PATIENCE_MS;
     do
         rig_turn(rig);
     while (!rig->status.ready && !rig->status.failed && wall_ms() < until);
@@ -86,7 +87,7 @@ static inline void rig_ready(Rig *rig)
 /* Advances to the end of a frame. */
 static inline void rig_step(Rig *rig)
 {
-    const double until = wall_ms() + 20000;
+    const double until = wall_ms() + PATIENCE_MS;
     rig_turn(rig);
     const uint64_t frames = rig->status.frames;
     simulator_single_step(rig->simulator, false);
@@ -99,7 +100,7 @@ static inline void rig_step(Rig *rig)
 /* Until nothing is left to do; paused. */
 static inline void rig_rest(Rig *rig)
 {
-    const double until = wall_ms() + 20000;
+    const double until = wall_ms() + PATIENCE_MS;
     do
         rig_turn(rig);
     while (!rig->status.rests && wall_ms() < until);
@@ -110,7 +111,7 @@ static inline void rig_rest(Rig *rig)
 /* Until the target is reached. */
 static inline void rig_arrive(Rig *rig)
 {
-    const double until = wall_ms() + 20000;
+    const double until = wall_ms() + PATIENCE_MS;
     do
         rig_turn(rig);
     while (rig->status.timeline.travelling && wall_ms() < until);
@@ -157,7 +158,7 @@ static inline uint64_t rig_hash(Rig *rig)
 
 static inline void rig_save(Rig *rig, const char *path)
 {
-    const double until = wall_ms() + 20000;
+    const double until = wall_ms() + PATIENCE_MS;
     rig_turn(rig);
     const unsigned saves = rig->status.saves;
     assert_true(simulator_save(rig->simulator, path));

@@ -26,7 +26,7 @@ static void shut(Rig *rig, uint64_t gates)
 
 static void restart(Rig *rig)
 {
-    const double until = wall_ms() + 20000;
+    const double until = wall_ms() + PATIENCE_MS;
     simulator_reset(rig->simulator);
     do
         rig_turn(rig);

@@ -268,7 +268,7 @@ static void a_reset_is_shown_of_all_at_once(void **state)
     for (int i = 0; i < 3; i++)
         rig_step(&leads);
     simulator_reset(leads.simulator);
-    const double until = wall_ms() + 20000;
+    const double until = wall_ms() + PATIENCE_MS;
     do
         rig_turn(&leads);
     while (leads.status.time > 0 && wall_ms() < until);
@@ -320,7 +320,7 @@ static void time_runs_on_in_the_past_as_it_did(void **state)
     run_straight(&rig, &run);
     rig_go(&rig, run.time[5]);
     simulator_pause(rig.simulator, false);
-    const double until = wall_ms() + 20000;
+    const double until = wall_ms() + PATIENCE_MS;
     do
         rig_turn(&rig);
     while (rig.status.time < run.time[FRAMES] && wall_ms() < until);
@@ -436,7 +436,7 @@ static void a_reset_keeps_what_was_set_until_then(void **state)
     rig_go(&rig, before);
     must(simulator_move(rig.simulator, &keep, rig.upload, backend, &error)); /* not recorded: no cut */
     simulator_reset(rig.simulator);
-    const double until = wall_ms() + 20000;
+    const double until = wall_ms() + PATIENCE_MS;
     do
         rig_turn(&rig);
     while (rig.status.step > 0 && wall_ms() < until);

@@ -2,6 +2,7 @@
    mouse and keys. */
 #define _GNU_SOURCE /* syscall */
 #include "tests/device/hid_stand_in.h"
+#include "tests/patience.h"
 #include "tests/tolerance.h"
 
 #include "app/input/input.h"
@@ -594,7 +595,7 @@ static void each_is_a_command_from_the_bytes_on(void **state)
     drawing = true;
     assert_int_equal(pthread_create(&window, NULL, draw_on, &room), 0);
     for (int i = 0; i < PUSHES; i++) {
-        const double until = wall_ms() + 20000;
+        const double until = wall_ms() + PATIENCE_MS;
         const int before = commands;
         push(pad, &turning);
         while (box_control_reports(room.control) <= (uint64_t)i && wall_ms() < until)

@@ -134,7 +134,7 @@ class Instructions(command.CommandTest):
         arguments = ["valgrind", "--tool=callgrind", "--toggle-collect=world_substep", "--compress-strings=no",
                      "--compress-pos=no", f"--callgrind-out-file={name}.out", program, "run", "scene.yaml", "-o",
                      f"{name}.h5part", "--time", str(STEPS / 1000), "--every", "10", "--threads", "1", "--quiet", *settings]
-        done = subprocess.run(arguments, cwd=self.folder, capture_output=True, text=True, timeout=200, check=False,
+        done = subprocess.run(arguments, cwd=self.folder, capture_output=True, text=True, timeout=command.PATIENCE, check=False,
                               env={**os.environ, "OMP_WAIT_POLICY": "passive", "SLOSH_SIMD": set_name})
         self.assertEqual(done.returncode, 0, done.stderr)
         return rows(functions(self.read(f"{name}.out").decode(), program))
@@ -146,7 +146,7 @@ class Instructions(command.CommandTest):
                                f"--callgrind-out-file={name}.out", command.PROGRAM, "run", "scene.yaml", "-o", f"{name}.h5part",
                                "--time", str(seconds), "--every", "10", "--threads", "1", "--quiet", "--set", "solver.method=mueller",
                                "--set", "solver.step={dt: 0.004, substeps: 4}"],
-                              cwd=self.folder, capture_output=True, text=True, timeout=200, check=False,
+                              cwd=self.folder, capture_output=True, text=True, timeout=command.PATIENCE, check=False,
                               env={**os.environ, "OMP_WAIT_POLICY": "passive", "SLOSH_SIMD": set_name})
         self.assertEqual(done.returncode, 0, done.stderr)
         taken = inclusive(self.read(f"{name}.out").decode())

@@ -27,7 +27,7 @@ class Terms(TermsTest):
         # a file of counts behind each world's end
         done = subprocess.run(["valgrind", "--tool=callgrind", "--toggle-collect=world_substep", "--dump-after=world_destroy",
                                "--callgrind-out-file=counts", command.PROGRAM, *self.bench_words()],
-                              cwd=self.folder, capture_output=True, text=True, timeout=250, check=False,
+                              cwd=self.folder, capture_output=True, text=True, timeout=command.PATIENCE, check=False,
                               env={**os.environ, "OMP_WAIT_POLICY": "passive"})
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(len([name for name in self.entries() if name.startswith("counts.")]), len(SCENES))

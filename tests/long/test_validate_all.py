@@ -8,8 +8,6 @@ from test_validate import ValidateTest
 
 
 class ValidateAll(ValidateTest):
-    most_seconds = 900
-
     def test_coarse_set_keeps_its_tolerances(self):
         names, said = self.run_coarse()
         self.assertGreaterEqual(len(names), 15)

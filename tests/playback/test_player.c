@@ -1,4 +1,5 @@
 /* A recorded run played by a clock that the test turns. */
+#include "tests/patience.h"
 #include "tests/playback/recorded_fixture.h"
 
 #include "app/run/playback/playback.h"
@@ -28,7 +29,7 @@ static size_t shown(Player *player)
 {
     PlayerStatus status;
     ParticleBuffers particles;
-    const double until = wall_ms() + 20000;
+    const double until = wall_ms() + PATIENCE_MS;
     for (int k = 0; k < 4; k++) { /* waiting steps: processed in sequence */
         do {
             player_work(player, now_ms);

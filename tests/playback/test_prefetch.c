@@ -1,5 +1,6 @@
 /* A recorded file read for pictures: requested steps are shown, read ahead of the view, in bounded
    memory. */
+#include "tests/patience.h"
 #include "tests/playback/recorded_fixture.h"
 
 #include "app/run/playback/playback.h"
@@ -93,7 +94,7 @@ static void neighbours_are_known(void **state)
 
 static bool has_read(Prefetch *prefetch, size_t count, PrefetchStatus *status)
 {
-    const double until = wall_ms() + 20000;
+    const double until = wall_ms() + PATIENCE_MS;
     do {
         must(prefetch_status(prefetch, status, &error), &error);
         usleep(1000);
@@ -208,7 +209,7 @@ static void a_file_that_grows_is_followed(void **state)
     assert_seek(prefetch, 10, 0, 0);
     for (size_t k = 1; k < 4; k++) {
         append(file, 1 + k, 0.1 * (double)k);
-        const double until = wall_ms() + 20000;
+        const double until = wall_ms() + PATIENCE_MS;
         do {
             prefetch_seek(prefetch, k == 2 ? 10 + wall_ms() : 10, 0);
             must(prefetch_wait(prefetch, &status, &error), &error);
@@ -246,7 +247,7 @@ static void a_file_that_is_replaced(void **state)
     PrefetchStatus status;
     Prefetch *prefetch = open_prefetch(1U << 20);
     const size_t counts[] = {1};
-    const double until = wall_ms() + 20000;
+    const double until = wall_ms() + PATIENCE_MS;
     write_file("b.h5part", counts, 1, 0.1);
     assert_seek(prefetch, 0.2, 0, 2);
     must(prefetch_status(prefetch, &status, &error), &error);

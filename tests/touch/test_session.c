@@ -136,7 +136,7 @@ static void commands_of_one_step(void **state)
 
 static void restart(Rig *rig)
 {
-    const double until = wall_ms() + 20000;
+    const double until = wall_ms() + PATIENCE_MS;
     simulator_reset(rig->simulator);
     do
         rig_turn(rig);

@@ -40,7 +40,7 @@ class Dragged:
 
     def answer(self, name):
         """Waits for it."""
-        end = time.monotonic() + 60
+        end = time.monotonic() + command.PATIENCE
         while time.monotonic() < end:
             if not self.connection.pending_events() and not select.select([self.connection], [], [], 0.2)[0]:
                 continue

@@ -44,7 +44,7 @@ class Gone(Ends):
     def end_display(self):
         """The exit code and the words of the window whose server is killed."""
         self.display.process.kill()
-        return self.process.wait(timeout=60), self.said_now()
+        return self.process.wait(timeout=command.PATIENCE), self.said_now()
 
     def move_the_box(self):
         self.display.press('Left')
@@ -93,7 +93,7 @@ class Signals(Ends):
         self.start('still.yaml', '--record', 'a.recording', '--backend', 'compute', *LONG)
         self.under_way()
         self.process.send_signal(signal.SIGHUP)
-        code = self.process.wait(timeout=60)
+        code = self.process.wait(timeout=command.PATIENCE)
         self.assertEqual(code, 0, self.said_now())
         self.assertIn('a.recording: the session, without its last frame', self.said_now())
         self.assertIn('commands\n', self.read('a.recording').decode())
