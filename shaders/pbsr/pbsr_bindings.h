@@ -62,6 +62,8 @@
 #define PIECES_OF_SCALAR 1u
 #define PIECES_OF_SLICE  2u
 #define PIECES_OF_VOLUME 3u
+#define PIECES_BY_COLORS 1u // values of colours have a block of their own; 0u: no colours
+#define PIECES_BY_LEVELS 2u // or are those of the surface
 
 /* Words of the numbers that the GPU finds, per layer: pieces; bits of LayerPieces.largest; 1: some part is in
    the fluid */

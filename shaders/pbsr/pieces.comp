@@ -5,7 +5,7 @@
 #include "pbsr/grid.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = PBSR_FIELD_STORAGE) readonly buffer Field { float field[]; };
-layout(std430, binding = PBSR_MEAN_STORAGE) readonly buffer Levels { float levels[]; }; // the field, or the mean of a scalar
+layout(std430, binding = PBSR_MEAN_STORAGE) readonly buffer Levels { float levels[]; }; // the mean of a scalar: of PIECES_OF_SCALAR
 layout(std430, binding = PIECES_STARTS_STORAGE) buffer Starts { uint starts[]; };       // and one more: the total
 layout(std430, binding = PIECES_CASES_STORAGE) readonly buffer Cases { uint cases[]; }; // 16 each: the number of triangles, their edges
 #ifndef COUNT
@@ -13,7 +13,7 @@ layout(std430, binding = PIECE_POINTS_STORAGE) writeonly buffer Points { float p
 layout(std430, binding = PIECES_COLORS_STORAGE) readonly buffer Colors { float colors[]; };
 layout(location = PIECE_FIRST_AT) uniform uint first; // piece of the bound range
 layout(location = PIECE_COUNT_AT) uniform uint room;  // pieces of the bound range
-layout(location = PIECES_COLORED_AT) uniform uint colored;
+layout(location = PIECES_COLORED_AT) uniform uint colored; // by PIECES_BY_
 #endif
 layout(location = PIECES_OF_AT) uniform uint of;
 layout(location = PIECES_LEVEL_AT) uniform float level;   // of a surface
@@ -36,9 +36,15 @@ float value_of(uint which, uint i)
 {
 #ifndef COUNT
     if (which == COLOR_VALUE)
-        return colors[i];
+        return colored == PIECES_BY_LEVELS ? levels[i] : colors[i];
 #endif
     return field[i];
+}
+
+// What a surface has a level of.
+float level_at(uint i)
+{
+    return of == PIECES_OF_SCALAR ? levels[i] : field[i];
 }
 
 // Interpolates between the eight values around, leaving out NaN values.
@@ -61,7 +67,7 @@ float value_at(uint which, vec3 index)
 // The outermost values and NaN are outside.
 bool is_inside(uvec3 at)
 {
-    float value = levels[value_number(at)];
+    float value = level_at(value_number(at));
     return all(greaterThan(at, uvec3(0u))) && all(lessThan(at, values_size - 1u)) && !is_nan(value) && value >= level;
 }
 
@@ -103,7 +109,7 @@ vec3 slope_at(uvec3 at)
     vec3 slope;
     for (uint k = 0u; k < 3u; k++) {
         bool before = at[k] > 0u, after = at[k] + 1u < values_size[k];
-        float rise = levels[value_number(after ? at + along(k) : at)] - levels[value_number(before ? at - along(k) : at)];
+        float rise = level_at(value_number(after ? at + along(k) : at)) - level_at(value_number(before ? at - along(k) : at));
         slope[k] = (before && after ? 0.5 * rise : rise) / values_side[k];
     }
     return slope;
@@ -115,7 +121,7 @@ void put_vertex(uint to, uvec3 cube, uint edge)
     uint axis = edge / 4u;
     uvec3 low = cube + (edge & 1u) * along((axis + 1u) % 3u) + (edge >> 1 & 1u) * along((axis + 2u) % 3u), high = low + along(axis);
     uint from = value_number(low), end = value_number(high);
-    float t = crossing(levels[from], levels[end], is_inside(low)), value = 0.0;
+    float t = crossing(level_at(from), level_at(end), is_inside(low)), value = 0.0;
     if (colored != 0u)
         value = is_nan(colors[from]) ? colors[end] : is_nan(colors[end]) ? colors[from] : mix(colors[from], colors[end], t);
     put(to, value_place(vec3(low) + t * vec3(along(axis))), mix(slope_at(low), slope_at(high), t), value,
@@ -191,7 +197,7 @@ void main()
 void put_cell(uint to, uint i)
 {
     vec3 place = value_place(vec3(value_index(i)));
-    put(to, flat_box != 0u ? vec3(place.xy, 0.0) : place, vec3(0.0), colored != 0u ? colors[i] : 0.0, field[i]);
+    put(to, flat_box != 0u ? vec3(place.xy, 0.0) : place, vec3(0.0), colored != 0u ? value_of(COLOR_VALUE, i) : 0.0, field[i]);
 }
 
 void main()

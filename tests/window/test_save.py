@@ -136,7 +136,7 @@ class SavedScene(Window):
                 self.assertAlmostEqual(a, b, 5, path)
         self.assertGreater(angle, 5)
         self.assertLess(moved[0][0], -0.05)
-        self.assertEqual(value['solids[2].sphere.radius'], 0.15)
+        self.assertEqual((value['solids[2].sphere.radius'], value['solids[2].density']), (0.16, 500))
         self.assertNotIn('solids[3].sphere.radius', value)
 
     def refused(self, name, words):

@@ -42,6 +42,7 @@ static void make_cases(GpuFluid *gpu)
     }
     gpu->cases = constant_buffer(sizeof words, words, "cases of a cube");
     gpu->none = constant_buffer(sizeof nothing, nothing, "no scalar");
+    gpu->no_colors = constant_buffer(sizeof nothing, nothing, "no colours");
 }
 
 static unsigned compile(const char *file, const char *defines, Error *error)
@@ -67,7 +68,7 @@ void gpu_fluid_destroy(GpuFluid *gpu)
     for (size_t i = 0; i < sizeof programs / sizeof *programs; i++)
         glDeleteProgram(programs[i]);
     prefix_sums_destroy(&gpu->sums);
-    glDeleteBuffers(4, (GLuint[]){gpu->cases, gpu->none, gpu->field, gpu->starts});
+    glDeleteBuffers(5, (GLuint[]){gpu->cases, gpu->none, gpu->no_colors, gpu->field, gpu->starts});
     glDeleteBuffers(FLUID_MEANS_MAX, gpu->mean);
     mailbox_destroy(&gpu->found);
     *gpu = (GpuFluid){0};
@@ -213,7 +214,7 @@ typedef struct PieceSource {
 static PieceSource source_of(const GpuFluid *gpu, const FluidField *fluid, const PbsrLayer *said)
 {
     const int *size = fluid->grid.size;
-    PieceSource source = {PIECES_OF_FIELD, gpu->field, 0, 0, cells_of(fluid)};
+    PieceSource source = {PIECES_OF_FIELD, gpu->none, 0, 0, cells_of(fluid)};
     if (said->of == PBSR_VOLUME)
         source.of = PIECES_OF_VOLUME;
     else if (said->of >= PBSR_SCALARS) {
@@ -232,6 +233,8 @@ static void begin_pass(const GpuFluid *gpu, unsigned program, const FluidField *
                        const FluidFieldJob *job, const PbsrLayer *said, const PieceSource *source)
 {
     const int color = job->colored ? fluid_field_mean_of(fluid, job->color) : -1;
+    const unsigned colors = color >= 0 ? gpu->mean[color] : gpu->no_colors;
+    const bool same = colors == source->levels; /* a buffer stands in one block alone */
     glUseProgram(program);
     set_grid(fluid, job->flat > 0);
     glUniform1ui(PIECES_OF_AT, source->of);
@@ -239,10 +242,9 @@ static void begin_pass(const GpuFluid *gpu, unsigned program, const FluidField *
     glUniform1ui(PIECES_AXIS_AT, (GLuint)source->axis);
     glUniform1f(PIECES_ACROSS_AT, (GLfloat)source->across);
     if (program == gpu->emit)
-        glUniform1ui(PIECES_COLORED_AT, color >= 0);
-    glBindBuffersBase(
-        GL_SHADER_STORAGE_BUFFER, PIECES_COLORS_STORAGE, 4,
-        (GLuint[]){color >= 0 ? gpu->mean[color] : gpu->field, gpu->field, source->levels, gpu->starts});
+        glUniform1ui(PIECES_COLORED_AT, color < 0 ? 0 : same ? PIECES_BY_LEVELS : PIECES_BY_COLORS);
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, PIECES_COLORS_STORAGE, 4,
+                      (GLuint[]){same ? gpu->no_colors : colors, gpu->field, source->levels, gpu->starts});
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PIECES_CASES_STORAGE, gpu->cases);
 }
 

@@ -624,9 +624,9 @@ typedef struct PiecesFound {
 typedef struct GpuFluid {
     unsigned sum, count, emit, share; /* programs; `sum`: 0 if the CPU projects */
     PrefixSums sums;
-    unsigned cases, none;                      /* buffers: cases of a cube; replaces a missing scalar */
-    unsigned field, starts;                    /* buffers: F; number of pieces before each cell */
-    unsigned mean[FLUID_MEANS_MAX];            /* buffers */
+    unsigned cases, none, no_colors; /* buffers: cases of a cube; replace a missing scalar, missing colours */
+    unsigned field, starts;          /* buffers: F; number of pieces before each cell */
+    unsigned mean[FLUID_MEANS_MAX];  /* buffers */
     size_t cells, mean_cells[FLUID_MEANS_MAX]; /* capacities */
     Mailbox found;
     PiecesFound answer; /* the last */
