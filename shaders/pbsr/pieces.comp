@@ -122,8 +122,10 @@ void put_vertex(uint to, uvec3 cube, uint edge)
     uvec3 low = cube + (edge & 1u) * along((axis + 1u) % 3u) + (edge >> 1 & 1u) * along((axis + 2u) % 3u), high = low + along(axis);
     uint from = value_number(low), end = value_number(high);
     float t = crossing(level_at(from), level_at(end), is_inside(low)), value = 0.0;
-    if (colored != 0u)
-        value = is_nan(colors[from]) ? colors[end] : is_nan(colors[end]) ? colors[from] : mix(colors[from], colors[end], t);
+    if (colored != 0u) {
+        float a = value_of(COLOR_VALUE, from), b = value_of(COLOR_VALUE, end);
+        value = is_nan(a) ? b : is_nan(b) ? a : mix(a, b, t);
+    }
     put(to, value_place(vec3(low) + t * vec3(along(axis))), mix(slope_at(low), slope_at(high), t), value,
         of == PIECES_OF_SCALAR ? mix(field[from], field[end], t) - fluid_least : 1.0);
 }

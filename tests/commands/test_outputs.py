@@ -283,8 +283,7 @@ class Unwritable(CommandTest):
         self.refused('render', 'frames', 'is a file, not a folder')
 
     def test_json(self):
-        code, said = self.slosh('run', 'scene.yaml', '-o', 'a.h5part', '--time', '1000000', '--json', 'no/a.json',
-                                timeout=command.PATIENCE)
+        code, said = self.slosh('run', 'scene.yaml', '-o', 'a.h5part', '--time', '1000000', '--json', 'no/a.json')
         self.assertEqual(code, 1, said)
         self.assertIn('no/a.json: cannot be written', said)
         self.assertEqual(self.entries(), [])

@@ -19,14 +19,14 @@ vec3 by_solid(uint i, vec3 d, float r2);
 float volume_of(uint i) { return motion[i].w; }
 
 #ifdef FORCES_ON_SOLIDS
+#include "sim/solid_forces.glsl"
+
 vec3 by_solid(uint i, vec3 d, float r2)
 {
     vec3 by = vec3(own[OWN_solid_by + i], own[OWN_STRIDE + OWN_solid_by + i], own[2u * OWN_STRIDE + OWN_solid_by + i]);
     float part = solid_part(column_of(SCRATCH_solid_slope, i), d, gradient * shape(sqrt(r2) * inverse_support));
-    return fluids[FLUID_OF(i)].mass / (dt * dt) * part * by;
+    return fluids[FLUID_OF(i)].mass / (forces_dt * forces_dt) * part * by;
 }
-
-#include "sim/solid_forces.glsl"
 #else
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; }; // p, k
 
