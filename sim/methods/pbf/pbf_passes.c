@@ -407,12 +407,12 @@ static const CpuPass moves[] = {
     {.loops = {{move_body, .walks = true, .pack = pack_growth}}, .pair = push_pair},
 };
 
-#define MOVE(NAME, CPU, SHADER, MORE)                                                                               \
-    {                                                                                                               \
-        .name = NAME, .stage = STAGE_SOLVE, .cpu = &(CPU), .shader = "pbf/" SHADER,                                 \
-        .reads =                                                                                                    \
-            "position remainder id fluid term residual factor inverse_mass change applied moved way " SOLID_WRITES, \
-        .writes = "position remainder term acceleration change applied moved way solid_by" MORE,                    \
+#define MOVE(NAME, CPU, SHADER, MORE)                                                                                        \
+    {                                                                                                                        \
+        .name = NAME, .stage = STAGE_SOLVE, .cpu = &(CPU), .shader = "pbf/" SHADER,                                          \
+        .reads =                                                                                                             \
+            "position remainder id fluid term residual factor inverse_mass change applied moved way solid_by " SOLID_WRITES, \
+        .writes = "position remainder term acceleration change applied moved way solid_by" MORE,                             \
     }
 
 const Pass pbf_first = MOVE("first move", moves[0], "first", " " SOLID_WRITES);
