@@ -185,7 +185,7 @@ uint pieces_of(uint i)
     if (of == PIECES_OF_SLICE)
         return square_pieces(square_of(i));
     if (of == PIECES_OF_VOLUME)
-        return uint(field[i] > 0.0 && !(flat_box != 0u && at.z > 0u)); // a slab has one layer
+        return uint(field[i] > 0.0 && (flat_box == 0u || at.z == 0u)); // a slab has one layer
     return any(greaterThanEqual(at + 1u, values_size)) ? 0u : cases[16u * case_of(at)];
 }
 

@@ -1,5 +1,6 @@
 // The expected numbers of points of a layer's pieces for a look, an invocation per piece. As layer_make_shares
 // (render/views/pbsr/sets.c). Also notes the largest piece, and whether any part of the layer is in the fluid.
+#include "common/nan.glsl"
 #include "pbsr/pbsr_bindings.h"
 layout(local_size_x = 64) in;
 layout(std430, binding = PIECE_POINTS_STORAGE) readonly buffer Points { float points[]; };
@@ -45,7 +46,7 @@ uint sides_beyond(vec3 seen)
 vec2 share_of(float size, float low, float high)
 {
     float nearest = max(max(low, view.z), nearest_part * high), expected = dense.x * size / (view.w * nearest * nearest);
-    if (!(expected > 0.0))
+    if (is_nan(expected) || expected <= 0.0)
         return vec2(0.0, 1.0);
     if (expected > PIECE_POINTS_MOST)
         atomicMax(found[PIECES_LARGEST + layer], floatBitsToUint(expected));
@@ -56,9 +57,11 @@ vec2 share_of(float size, float low, float high)
 float bend_of(Corner p[3])
 {
     float turn = 0.0, side = 0.0;
-    for (uint k = 0u; k < 3u; k++)
-        if (!(dense.y > 0.0) || !(dot(p[k].normal, p[k].normal) > 0.0))
+    for (uint k = 0u; k < 3u; k++) {
+        float square = dot(p[k].normal, p[k].normal);
+        if (dense.y <= 0.0 || is_nan(square) || square <= 0.0) // dense is a uniform, and finite
             return 1.0;
+    }
     for (uint k = 0u; k < 3u; k++) {
         turn = max(turn, distance(normalize(p[k].normal), normalize(p[(k + 1u) % 3u].normal)));
         side = max(side, distance(p[k].at, p[(k + 1u) % 3u].at));

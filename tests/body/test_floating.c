@@ -73,14 +73,19 @@ static void light_ones_hold(void **state)
             const WorldDef def = tank(fixture_method_names[m], densities[d]);
             World *world = fixture_world(&def);
             WorldInfo info;
+            double speed = 0; /* mean of the second second: with pbf it trembles at first, by up to 0.8 m/s */
             fixture_step(world, 100);
-            world_info(world, &info);
-            const double *v = info.floating[0].velocity, y = info.floating[0].position[1];
+            for (int i = 0; i < 100; i++) {
+                fixture_step(world, 1);
+                world_info(world, &info);
+                speed += hypot(info.floating[0].velocity[0], info.floating[0].velocity[1]) / 100;
+            }
+            const double y = info.floating[0].position[1];
             printf("%s, %g kg/m3: middle at %.3f m, %.3f m/s, %u times back\n", fixture_method_names[m],
-                   densities[d], y, hypot(v[0], v[1]), info.trouble.count);
-            if (!(info.trouble.count == 0 && y > 0.45 && y < 0.7 && hypot(v[0], v[1]) < 0.5))
+                   densities[d], y, speed, info.trouble.count);
+            if (!(info.trouble.count == 0 && y > 0.45 && y < 0.7 && speed < 0.4))
                 fail_msg("%s: a body of %g kg/m3 is at %.3g m with %.3g m/s; went back %u times",
-                         fixture_method_names[m], densities[d], y, hypot(v[0], v[1]), info.trouble.count);
+                         fixture_method_names[m], densities[d], y, speed, info.trouble.count);
             world_destroy(world);
         }
 }

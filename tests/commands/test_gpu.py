@@ -73,7 +73,8 @@ class Gpu(CommandTest):
         with open(shader, encoding='utf-8') as file:
             text = file.read()
         with open(shader, 'w', encoding='utf-8') as file:
-            file.write(text.replace('position_stride', 'uint(position_stride)').replace('uniform uint uint(position_stride)', 'uniform float position_stride'))
+            file.write(re.sub(r'(#define \w+_stride) (particle_strides\[\d\])', r'\1 uint(\2)',
+                              text.replace('uniform uint particle_strides', 'uniform float particle_strides')))
         done = self.start('render', 'scene.yaml', '-o', 'a.png', '--time', '0', '--size', '64x64', '--shaders', 'shaders')
         said = done.communicate(timeout=command.PATIENCE)[1]
         self.assertEqual(done.returncode, 1, said)

@@ -94,7 +94,8 @@ static void slosh_for(World *world, int frames, bool moves)
 }
 
 /* 200 particles, no longer in the order of a lattice. */
-static const double pressure_most[] = {0.2, 0.17, 0.12, 0.2};
+static const double pressure_most[] = {0.2, 0.17, 0.12,
+                                       0.25}; /* of pbf at a moment: 0.06 to 0.21 by the rounding */
 
 /* The key, at once. */
 static void gravity_turns_at_once(void **state)

@@ -16,8 +16,15 @@ LONG = ['--particles', '20000', '--set', 'solver.method=pbf', '--set', 'solver.c
 
 class Ends(Window):
     def under_way(self):
-        """In its first step."""
+        """In its first step, which begins behind the first picture: nothing else takes seconds."""
         self.wait_for(lambda: self.display.colors(self.window) >= FLUID_COLORS, self.process)
+        begun = self.worked()
+        self.wait_for(lambda: self.worked() > begun + 1.5, self.process)
+
+    def worked(self):
+        """Processor time of the program, s."""
+        with open(f'/proc/{self.process.pid}/stat') as stat:
+            return sum(int(ticks) for ticks in stat.read().rsplit(')', 1)[1].split()[11:13]) / os.sysconf('SC_CLK_TCK')
 
 
 class Gone(Ends):
