@@ -90,9 +90,10 @@ static void bind_attributes(GLuint first, int count, const ParticleAttribute *co
     glBindBuffersRange(GL_SHADER_STORAGE_BUFFER, first, count, buffers, offsets, sizes);
 }
 
-_Static_assert(SCALARS_STORAGE == POSITIONS_STORAGE + 1 && FLUIDS_STORAGE == POSITIONS_STORAGE + 2 &&
-                   SCALAR_STRIDE_AT == POSITION_STRIDE_AT + 1 && FLUID_STRIDE_AT == POSITION_STRIDE_AT + 2,
-               "bound and set by one call");
+_Static_assert(SCALARS_STORAGE == POSITIONS_STORAGE + 1 && FLUIDS_STORAGE == POSITIONS_STORAGE + 2,
+               "bound by one call");
+_Static_assert(SCALAR_STRIDE_AT == POSITION_STRIDE_AT + 1 && FLUID_STRIDE_AT == POSITION_STRIDE_AT + 2,
+               "set by one call");
 
 void particle_bind(unsigned program, const ParticleBuffers *particles, Scalar scalar)
 {

@@ -208,9 +208,13 @@ bool shader_source_load(ShaderSource *source, const char *path, const char *defi
 {
     const char *version = version_of(path);
     *source = (ShaderSource){0};
-    if (!append(source, version, strlen(version)) || (defines && !append(source, defines, strlen(defines))))
-        return error_set(error, "out of memory for shaders");
-    return append_file(source, path, "", error);
+    const bool begun =
+        append(source, version, strlen(version)) && (!defines || append(source, defines, strlen(defines)));
+    const bool loaded =
+        begun ? append_file(source, path, "", error) : error_set(error, "out of memory for shaders");
+    if (!loaded)
+        shader_source_free(source);
+    return loaded;
 }
 
 void shader_source_free(ShaderSource *source)
@@ -292,14 +296,14 @@ typedef struct ProgramSource {
 /* FNV-1a, 64 bits. */
 static void hash_text(uint64_t *hash, const char *text)
 {
-    do
-        *hash = (*hash ^ (unsigned char)*text) * UINT64_C(0x100000001B3);
-    while (*text++);
+    const size_t size = text ? strlen(text) + 1 : 0;
+    for (size_t i = 0; i < size; i++)
+        *hash = (*hash ^ (unsigned char)text[i]) * UINT64_C(0x100000001B3);
 }
 
 static void sources_free(ProgramSource *source)
 {
-    for (int i = 0; i < source->count; i++)
+    for (int i = 0; i < STAGES_MOST; i++)
         shader_source_free(&source->stages[i]);
 }
 
@@ -308,15 +312,16 @@ static bool sources_load(ProgramSource *source, const char *const stages[], cons
                          const char *captured, Error *error)
 {
     *source = (ProgramSource){.paths = stages, .captured = captured, .hash = UINT64_C(0xCBF29CE484222325)};
-    for (int i = 0; stages[i]; i++) {
-        if (!stage_kind(stages[i]) || i == STAGES_MOST)
+    for (int i = 0; i < STAGES_MOST && stages[i]; i++) {
+        ShaderSource stage;
+        if (!stage_kind(stages[i]))
             return error_set(error, "%s: unknown kind of shader; .vert, .geom, .frag and .comp are known",
                              stages[i]);
-        source->count = i + 1;
-        if (!shader_source_load(&source->stages[i], stages[i], defines, error))
+        if (!shader_source_load(&stage, stages[i], defines, error))
             return false;
         hash_text(&source->hash, stages[i]);
-        hash_text(&source->hash, source->stages[i].text);
+        hash_text(&source->hash, stage.text);
+        source->stages[source->count++] = stage;
     }
     hash_text(&source->hash, captured ? captured : "");
     return true;

@@ -4,6 +4,7 @@
 #include "sim/box/box.h"
 #include "sim/gpu/gl.h"
 
+#include <assert.h>
 #include <epoxy/gl.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -251,6 +252,7 @@ static unsigned framebuffer_create(const unsigned *targets, int count)
     unsigned framebuffer;
     glCreateFramebuffers(1, &framebuffer);
     glObjectLabel(GL_FRAMEBUFFER, framebuffer, -1, "solver pass");
+    assert(count <= 3);
     for (int k = 0; k < count; k++)
         glNamedFramebufferTexture(framebuffer, attachments[k], targets[k], 0);
     glNamedFramebufferDrawBuffers(framebuffer, count, attachments);
