@@ -217,7 +217,7 @@ void play_put_solid(Play *play, int like, bool floats)
     else if (play->model.has_particles)
         pick_position(&play->model.particles, &ray, 0.5 * play->model.particles.spacing, command.at);
     if (model_solid(&play->model, &command))
-        tell_put(&play->notice, floats, command.density > 0);
+        tell_put(&play->notice, floats && like != SOLID_LIKE, command.density > 0);
 }
 
 void play_remove_solid(Play *play)

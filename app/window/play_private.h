@@ -141,8 +141,9 @@ typedef struct HandleTool {
     bool wall;       /* the held handle belongs to a wall */
 } HandleTool;
 
-/* True if a corner of the box is in the panel. `centre`: the pixel of the box's centre, in the panel or
-   beyond; below the panel's lower edge for a box behind the eye. */
+/* True if the box may be in the panel: also from within, or so near that no corner is seen. `centre`: the
+   pixel of the box's centre, in the panel or beyond; below the panel's lower edge for a box behind the eye.
+ */
 bool camera_sees_box(const PanelViewport *look, double centre[2]);
 
 /* Resets: no handle is held. */

@@ -146,18 +146,25 @@ void camera_to_screen(const PlayModel *model, const ViewDef *view, const CameraS
 
 bool camera_sees_box(const PanelViewport *look, double centre[2])
 {
-    const double *size = look->particles->box_size;
-    bool seen = false;
+    const double *size = look->particles->box_size, end[2] = {look->at.width, look->at.height};
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    int before = 0; /* corners before the eye */
     for (int corner = 0; corner < 8; corner++) {
         double pixel[2], at[3];
         for (int k = 0; k < 3; k++)
             at[k] = ((corner >> k & 1) - (k == 1 ? 0 : 0.5)) * size[k];
-        seen |= sight_pixel(&look->sight, at, pixel) && pixel[0] >= 0 && pixel[0] <= look->at.width &&
-                pixel[1] >= 0 && pixel[1] <= look->at.height;
+        if (!sight_pixel(&look->sight, at, pixel))
+            continue;
+        before++;
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(low[k], pixel[k]);
+            high[k] = fmax(high[k], pixel[k]);
+        }
     }
     if (!sight_pixel(&look->sight, (double[]){0, 0.5 * size[1], 0}, centre))
-        centre[0] = 0.5 * look->at.width, centre[1] = look->at.height; /* behind the eye */
-    return seen;
+        centre[0] = 0.5 * end[0], centre[1] = end[1]; /* behind the eye */
+    return before > 0 &&
+           (before < 8 || (low[0] <= end[0] && high[0] >= 0 && low[1] <= end[1] && high[1] >= 0));
 }
 
 Orbit camera_now(const PlayCamera *camera, const PlayModel *model, const CameraSight *sight)

@@ -77,8 +77,7 @@ typedef struct SolidCommand {
     double turn[4]; /* moved: unit quaternion around the solid's centre, on top of its own turn */
     int like;       /* put: the shape */
     double size;    /* of a ball or a box: radius, half an edge, m */
-    double
-        density; /* put: kg/m3, more than 0: it falls, and floats if lighter than the fluid; 0: stays there */
+    double density; /* put: kg/m3, more than 0: falls and may float; 0: stays */
 } SolidCommand;
 
 /* Names move, put, take; and the act of a name, or -1. */
