@@ -23,11 +23,6 @@ class Lost(Window):
         self.write('near.yaml', STILL + VIEW)
         self.open('near.yaml', '--set', 'gravity=[0, 0, 0]')
         self.assertIsNone(self.arrow())
-        for _ in range(12):  # so near that no corner is seen
-            self.xdo('click', 4)
-        self.drawn()
-        self.assertIsNone(self.arrow())
-        self.keys('a')
         for _ in range(3):
             self.drag(1, [(60, 200), (200, 200), (400, 200)], 'shift')
         self.wait_for(lambda: (self.arrow() or 0) > 0.9, self.process)
