@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <pthread.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -85,10 +86,10 @@ enum { PENDING_MAX = 8 };
 
 static pthread_mutex_t adding = PTHREAD_MUTEX_INITIALIZER; /* the window and the solver's thread save */
 
-/* The only state reachable by a signal handler. */
+/* The only state reachable by a signal handler, and by a thread that ends the program. */
 static struct {
-    volatile sig_atomic_t used;
-    pid_t owner; /* a child that crashes leaves the files of its parent */
+    atomic_int used; /* lock-free; set after the other members */
+    pid_t owner;     /* a child that crashes leaves the files of its parent */
     char temp[OUTPUT_TEMP_SIZE];
 } pending[PENDING_MAX];
 

@@ -9,6 +9,7 @@
 #include <limits.h>
 #include <math.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -46,17 +47,17 @@ int standard_streams_flush(const char *program, int code)
     return EXIT_FAILED;
 }
 
-static volatile sig_atomic_t first, asked; /* first: number of the first signal; 0: none yet */
-static volatile sig_atomic_t bell = -1;    /* file descriptor for a waiting thread */
+/* Lock-free atomics: signal handlers and the watchdog's thread share these. */
+static atomic_int first, asked; /* first: number of the first signal; 0: none yet */
+static atomic_int bell = -1;    /* file descriptor for a waiting thread */
 
 static void on_signal(int number)
 {
     const int before = errno;
-    if (first) {
+    if (atomic_exchange(&first, number)) {
         output_discard_all();
         _exit(EXIT_INTERRUPTED);
     }
-    first = number;
     if (bell >= 0 && write(bell, &(uint64_t){1}, sizeof(uint64_t)) < 0)
         bell = -1; /* no thread listens */
     errno = before;
@@ -119,10 +120,7 @@ void interrupt_enable_progress_request(void)
 
 bool interrupt_progress_requested(void)
 {
-    if (!asked)
-        return false;
-    asked = 0; /* two requests before a look count once */
-    return true;
+    return atomic_exchange(&asked, 0) != 0; /* two requests before a look count once */
 }
 
 enum { CACHE_BYTES = 4 << 20 }; /* Mesa's index has 1.3 MB */
