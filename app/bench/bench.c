@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WARM_UP_FRAMES = 3 };
+enum { WARM_UP_FRAMES = 3, PROGRAM_FRAMES = 3 };
 
 /* Stage times, one row per frame, and each frame's wall time. GL rows come later than CPU rows if their
    clock is a query. */
@@ -234,6 +234,27 @@ static bool warm_up(BenchRun *stand, BenchResult *result, Error *error)
     return ok;
 }
 
+/* Some more frames, for the time of each program. */
+static bool measure_programs(BenchRun *stand, BenchResult *result, Error *error)
+{
+    bool ok = true;
+    if (strcmp(gl_timer_clock_name(stand->timer), "gl") != 0)
+        return true;
+    gl_timer_warm_up(stand->timer);
+    gl_programs_begin();
+    for (int f = 0; ok && f < PROGRAM_FRAMES; f++) {
+        device_replay_apply(stand->hand, stand->world);
+        ok = world_step(stand->world, NULL, error) &&
+             (!stand->draws || offscreen_draw(&stand->offscreen, stand->world, NULL, NULL, error));
+    }
+    result->program_count = (int)gl_programs_end(result->programs, BENCH_PROGRAMS);
+    for (int k = 0; k < result->program_count; k++) {
+        result->programs[k].ms /= PROGRAM_FRAMES;
+        result->programs[k].before_ms /= PROGRAM_FRAMES;
+    }
+    return ok;
+}
+
 static bool look(BenchRun *stand, Error *error)
 {
     return outcome_sample(&stand->history, stand->def, stand->hand != NULL, stand->world) ||
@@ -249,6 +270,7 @@ static bool measure(BenchRun *stand, const BenchSetup *setup, Progress *progress
         return false;
     world_info(stand->world, &first);
     world_solved_restart(stand->world);
+    gl_timer_warm_up(stand->timer);
     while (samples->frames < frames && !interrupted()) {
         StageClock clock;
         if (!advance(stand, first.time + setup->seconds * (samples->frames + 0.5) / frames, error))
@@ -350,7 +372,7 @@ bool bench_measure(const BenchSetup *setup, Progress *progress, double done, dou
         describe(&stand, result);
     ok = ok && advance(&stand, setup->from, &error) && warm_up(&stand, result, &error) &&
          measure(&stand, setup, progress, done, part, &samples, &error) &&
-         conclude(&stand, &samples, result, &error);
+         measure_programs(&stand, result, &error) && conclude(&stand, &samples, result, &error);
     judge(&stand, ok, &error, result);
     samples_destroy(&samples);
     stand_close(&stand);
@@ -383,6 +405,20 @@ static void print_calls(const char *of, const GlCalls *calls, uint64_t times, FI
                 (double)calls->waits * each, (double)calls->readbacks * each);
 }
 
+/* The programs with the greatest times. */
+static void print_programs(const BenchResult *r, FILE *file)
+{
+    enum { SHOWN = 6 };
+    double waits = 0;
+    for (int k = 0; k < r->program_count; k++)
+        waits += r->programs[k].before_ms;
+    for (int k = 0; k < r->program_count && k < SHOWN; k++)
+        fprintf(file, "%s%s %.3g", k == 0 ? "  ms a frame by program: " : ", ", r->programs[k].name,
+                r->programs[k].ms);
+    if (r->program_count > 0)
+        fprintf(file, "; between programs %.3g\n", waits);
+}
+
 static void print_parts(const BenchResult *r, FILE *file)
 {
     char words[SOLVE_FIGURES_WORDS], text[OUTCOME_TEXT];
@@ -402,6 +438,7 @@ static void print_parts(const BenchResult *r, FILE *file)
         fprintf(file, "  %s\n", solve_figures_text(&r->solved, words));
     print_calls("substep", &r->sim_calls, r->called_substeps, file);
     print_calls("picture", &r->picture_calls, r->called_pictures, file);
+    print_programs(r, file);
     fprintf(file, "  sim %.3f ms, upload %.3f ms, render %.3f ms, frame %.3f ms\n", r->sim_ms, r->upload_ms,
             r->render_ms, r->frame_ms);
     fprintf(file, "  %.3g million particle-steps/s, real-time factor %.2f, %.0f bytes a particle\n\n",
@@ -476,6 +513,17 @@ static json_t *calls_json(const GlCalls *calls, uint64_t times)
                                   "readbacks", (double)calls->readbacks * each);
 }
 
+/* Per frame: all dispatches and draws of the program. */
+static json_t *programs_json(const BenchResult *r)
+{
+    json_t *all = r->program_count > 0 ? json_array() : json_null();
+    for (int k = 0; k < r->program_count; k++)
+        json_array_append_new(all, json_pack("{s:s, s:f, s:f, s:f}", "name", r->programs[k].name, "runs",
+                                             (double)r->programs[k].runs / PROGRAM_FRAMES, "ms",
+                                             r->programs[k].ms, "before_ms", r->programs[k].before_ms));
+    return all;
+}
+
 static json_t *failed_case_json(const BenchResult *r)
 {
     json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:s}", "scene", r->scene, "backend", r->backend, "method",
@@ -512,9 +560,10 @@ static json_t *result_json(const BenchResult *r)
     if (ok)
         solve_figures_json(json, &r->solved);
     if (ok && (r->called_substeps > 0 || r->called_pictures > 0))
-        json_object_set_new(json, "gl",
-                            json_pack("{s:o, s:o}", "substep", calls_json(&r->sim_calls, r->called_substeps),
-                                      "picture", calls_json(&r->picture_calls, r->called_pictures)));
+        json_object_set_new(
+            json, "gl",
+            json_pack("{s:o, s:o, s:o}", "substep", calls_json(&r->sim_calls, r->called_substeps), "picture",
+                      calls_json(&r->picture_calls, r->called_pictures), "programs", programs_json(r)));
     if (ok && r->counts.counted)
         json_object_set_new(json, "coverage", json_real(r->counts.coverage));
     if (ok && r->swept[0])

@@ -25,6 +25,8 @@ typedef struct StageFigure {
     double share; /* fraction of the time of all stages */
 } StageFigure;
 
+enum { BENCH_PROGRAMS = 96 };
+
 /* Times are per frame: `substeps` substeps and one picture. */
 typedef struct BenchResult {
     Outcome outcome; /* judgement of the frames; with a failure and OUTCOME_NONE the fluid is not to blame */
@@ -53,6 +55,8 @@ typedef struct BenchResult {
     ViewCounts counts;                   /* of one more picture, drawn after the measured frames */
     GlCalls sim_calls, picture_calls;    /* of the last frames of the warm-up, without a clock */
     uint64_t called_substeps, called_pictures; /* of the same frames; 0: no calls of the driver */
+    GlProgramTime programs[BENCH_PROGRAMS];    /* a frame's means, after the measured frames */
+    int program_count;                         /* 0: the clock is not the GPU's */
 } BenchResult;
 
 typedef struct BenchSetup {

@@ -111,7 +111,7 @@ static Headless *open_display(EGLDisplay display)
     if (headless && eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
         headless->display = display;
         headless->context = context;
-        gl_debug_install();
+        gl_context_begin();
         snprintf(headless->renderer, sizeof headless->renderer, "%s", (const char *)glGetString(GL_RENDERER));
         return headless;
     }

@@ -56,7 +56,7 @@ static bool make_window(PlaySession *session, Error *error)
     if (!play->window)
         return false;
     renderer_tell(window_renderer(play->window));
-    gl_debug_install();
+    gl_context_begin();
     if (!picture_read_display(&play->picture, play->window, error))
         return false;
     gl_timer_between(play->picture.pauses, events_between_passes, play);

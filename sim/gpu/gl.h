@@ -16,15 +16,16 @@
    shader compiler do not count: program_create returns them to its caller. Lack of memory counts where the
    caller of gl_errors_take has not taken the code. */
 
-/* Listens to the current context from now on, to errors alone. The driver may call back later, from another
-   thread: synchronous messages would keep drivers from working on threads. */
-void gl_debug_install(void);
+/* Call first in a new context. Listens to errors from now on; the driver may call back later, from another
+   thread: synchronous messages would keep drivers from working on threads. Lets the driver compile programs
+   on as many threads as it has. */
+void gl_context_begin(void);
 
 /* Takes pending glGetError codes. Returns the number of codes equal to `code`, or of all codes if `code` is
    0, for the caller to handle. The rest count as errors. */
 int gl_errors_take(unsigned code);
 
-/* Errors of all contexts since gl_debug_install, with pending glGetError codes of the current context. */
+/* Errors of all contexts since gl_context_begin, with pending glGetError codes of the current context. */
 int gl_debug_errors(void);
 
 /* Errors of all contexts since program start; needs no context. */
@@ -48,6 +49,21 @@ GlCalls gl_calls_since(const GlCalls *before);
 
 /* Ends counting. */
 void gl_calls_end(void);
+
+/* The GPU's time in each program, by timestamps around each dispatch and draw. */
+typedef struct GlProgramTime {
+    char name[64];    /* the program's label */
+    unsigned runs;    /* dispatches and draws */
+    double ms;        /* of all runs */
+    double before_ms; /* since the end of the program before: copies, clears, and waits for the CPU */
+} GlProgramTime;
+
+/* Measures from now on, in the current context. Without memory, runs are left out. */
+void gl_programs_begin(void);
+
+/* Ends the measurement; waits for the GPU. Returns the number of programs in `times`, at most `most`; the
+   greatest sums come first. */
+size_t gl_programs_end(GlProgramTime *times, size_t most);
 
 /* Driver limits that shaders need beyond the guarantees of OpenGL 4.5, checked at start to avoid silent
    empty pictures. */
@@ -209,6 +225,10 @@ typedef struct GlTimer GlTimer;
    nothing. */
 GlTimer *gl_timer_create(GlClock clock);
 void gl_timer_destroy(GlTimer *timer);
+
+/* Works a GPU for 0.3 s before a measurement: the clocks of an idle GPU are low, and rise under load. Does
+   nothing on a software renderer, or without a timer. */
+void gl_timer_warm_up(const GlTimer *timer);
 
 /* "gl", "finish" or "off": the actual clock. */
 const char *gl_timer_clock_name(const GlTimer *timer);

@@ -1,5 +1,9 @@
 /* The functions of OpenGL that slosh calls, for sim/gpu/gl_calls.c: kind of the call, type, name,
-   parameters, arguments. tests/tree/test_gl_calls.py holds the rows against the sources. */
+   parameters, arguments. A program runs by the calls of GL_RUN. tests/tree/test_gl_calls.py holds the rows
+   against the sources. */
+#ifndef GL_RUN
+#define GL_RUN GL_CALL
+#endif
 
 GL_CALL(CALL_OTHER, void, glAttachShader, (GLuint a, GLuint b), (a, b))
 GL_CALL(CALL_OTHER, void, glBeginConditionalRender, (GLuint a, GLenum b), (a, b))
@@ -79,14 +83,14 @@ GL_CALL(CALL_OTHER, void, glDepthFunc, (GLenum a), (a))
 GL_CALL(CALL_OTHER, void, glDepthMask, (GLboolean a), (a))
 GL_CALL(CALL_OTHER, void, glDepthRange, (GLdouble a, GLdouble b), (a, b))
 GL_CALL(CALL_OTHER, void, glDisable, (GLenum a), (a))
-GL_CALL(CALL_DISPATCH, void, glDispatchCompute, (GLuint a, GLuint b, GLuint c), (a, b, c))
-GL_CALL(CALL_DISPATCH, void, glDispatchComputeIndirect, (GLintptr a), (a))
-GL_CALL(CALL_DRAW, void, glDrawArrays, (GLenum a, GLint b, GLsizei c), (a, b, c))
-GL_CALL(CALL_DRAW, void, glDrawArraysIndirect, (GLenum a, const void *b), (a, b))
-GL_CALL(CALL_DRAW, void, glDrawArraysInstanced, (GLenum a, GLint b, GLsizei c, GLsizei d), (a, b, c, d))
-GL_CALL(CALL_DRAW, void, glDrawElements, (GLenum a, GLsizei b, GLenum c, const void *d), (a, b, c, d))
-GL_CALL(CALL_DRAW, void, glDrawElementsIndirect, (GLenum a, GLenum b, const void *c), (a, b, c))
-GL_CALL(CALL_DRAW, void, glDrawTransformFeedback, (GLenum a, GLuint b), (a, b))
+GL_RUN(CALL_DISPATCH, void, glDispatchCompute, (GLuint a, GLuint b, GLuint c), (a, b, c))
+GL_RUN(CALL_DISPATCH, void, glDispatchComputeIndirect, (GLintptr a), (a))
+GL_RUN(CALL_DRAW, void, glDrawArrays, (GLenum a, GLint b, GLsizei c), (a, b, c))
+GL_RUN(CALL_DRAW, void, glDrawArraysIndirect, (GLenum a, const void *b), (a, b))
+GL_RUN(CALL_DRAW, void, glDrawArraysInstanced, (GLenum a, GLint b, GLsizei c, GLsizei d), (a, b, c, d))
+GL_RUN(CALL_DRAW, void, glDrawElements, (GLenum a, GLsizei b, GLenum c, const void *d), (a, b, c, d))
+GL_RUN(CALL_DRAW, void, glDrawElementsIndirect, (GLenum a, GLenum b, const void *c), (a, b, c))
+GL_RUN(CALL_DRAW, void, glDrawTransformFeedback, (GLenum a, GLuint b), (a, b))
 GL_CALL(CALL_OTHER, void, glEnable, (GLenum a), (a))
 GL_CALL(CALL_OTHER, void, glEnableVertexArrayAttrib, (GLuint a, GLuint b), (a, b))
 GL_CALL(CALL_OTHER, void, glEnablei, (GLenum a, GLuint b), (a, b))
@@ -108,6 +112,8 @@ GL_CALL(CALL_QUESTION, void, glGetInteger64v, (GLenum a, GLint64 *b), (a, b))
 GL_CALL(CALL_QUESTION, void, glGetIntegerv, (GLenum a, GLint *b), (a, b))
 GL_CALL(CALL_READBACK, void, glGetNamedBufferSubData, (GLuint a, GLintptr b, GLsizeiptr c, void *d),
         (a, b, c, d))
+GL_CALL(CALL_QUESTION, void, glGetObjectLabel, (GLenum a, GLuint b, GLsizei c, GLsizei *d, GLchar *e),
+        (a, b, c, d, e))
 GL_CALL(CALL_OTHER, void, glGetProgramBinary, (GLuint a, GLsizei b, GLsizei *c, GLenum *d, void *e),
         (a, b, c, d, e))
 GL_CALL(CALL_QUESTION, void, glGetProgramInfoLog, (GLuint a, GLsizei b, GLsizei *c, GLchar *d), (a, b, c, d))
@@ -135,6 +141,8 @@ GL_CALL(CALL_QUESTION, GLboolean, glIsProgram, (GLuint a), (a))
 GL_CALL(CALL_OTHER, void, glLinkProgram, (GLuint a), (a))
 GL_CALL(CALL_OTHER, void *, glMapNamedBufferRange, (GLuint a, GLintptr b, GLsizeiptr c, GLbitfield d),
         (a, b, c, d))
+GL_CALL(CALL_OTHER, void, glMaxShaderCompilerThreadsARB, (GLuint a), (a))
+GL_CALL(CALL_OTHER, void, glMaxShaderCompilerThreadsKHR, (GLuint a), (a))
 GL_CALL(CALL_BARRIER, void, glMemoryBarrier, (GLbitfield a), (a))
 GL_CALL(CALL_OTHER, void, glNamedBufferData, (GLuint a, GLsizeiptr b, const void *c, GLenum d), (a, b, c, d))
 GL_CALL(CALL_OTHER, void, glNamedBufferStorage, (GLuint a, GLsizeiptr b, const void *c, GLbitfield d),
@@ -233,3 +241,5 @@ GL_CALL(CALL_OTHER, void, glVertexArrayElementBuffer, (GLuint a, GLuint b), (a, 
 GL_CALL(CALL_OTHER, void, glVertexArrayVertexBuffer, (GLuint a, GLuint b, GLuint c, GLintptr d, GLsizei e),
         (a, b, c, d, e))
 GL_CALL(CALL_OTHER, void, glViewport, (GLint a, GLint b, GLsizei c, GLsizei d), (a, b, c, d))
+
+#undef GL_RUN

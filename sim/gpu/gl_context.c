@@ -10,7 +10,7 @@
 
 /* The driver calls back from its threads. */
 static atomic_int error_count;
-static int forgotten; /* errors before the last gl_debug_install */
+static int forgotten; /* errors before the last gl_context_begin */
 
 enum { MESSAGES = 8 }; /* printed messages; each picture mostly repeats the same kind */
 
@@ -54,8 +54,12 @@ int gl_errors_take(unsigned code)
     return found;
 }
 
-void gl_debug_install(void)
+void gl_context_begin(void)
 {
+    if (epoxy_has_gl_extension("GL_KHR_parallel_shader_compile"))
+        glMaxShaderCompilerThreadsKHR(UINT32_MAX);
+    else if (epoxy_has_gl_extension("GL_ARB_parallel_shader_compile"))
+        glMaxShaderCompilerThreadsARB(UINT32_MAX);
     gl_errors_take(0);
     forgotten += atomic_exchange(&error_count, 0);
     glEnable(GL_DEBUG_OUTPUT);

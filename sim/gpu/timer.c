@@ -55,6 +55,20 @@ void gl_timer_destroy(GlTimer *timer)
     free(timer);
 }
 
+void gl_timer_warm_up(const GlTimer *timer)
+{
+    enum { BYTES = 64 << 20, WORK_MS = 300, CLEARS = 50 };
+    GLuint buffer;
+    if (!timer || gl_renderer_is_software())
+        return;
+    glCreateBuffers(1, &buffer);
+    glNamedBufferStorage(buffer, BYTES, NULL, 0);
+    for (const double began = wall_ms(); wall_ms() - began < WORK_MS; glFinish())
+        for (int k = 0; k < CLEARS; k++)
+            glClearNamedBufferData(buffer, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    glDeleteBuffers(1, &buffer);
+}
+
 const char *gl_timer_clock_name(const GlTimer *timer)
 {
     if (!timer || timer->clock == GL_CLOCK_OFF)

@@ -76,6 +76,12 @@ class Bench(BenchTest):
     def test_query_clock_is_named(self):
         (result,) = self.bench("--clock", "gl", "--size", "64x64")
         self.assertEqual({s["clock"] for s in result["stages"] if s["part"] == "render"}, {"gl"})
+        programs = {program["name"]: program for program in result["gl"]["programs"]}
+        self.assertEqual(programs["spheres point"]["runs"], 1)
+        self.assertTrue(all(p["runs"] > 0 and p["ms"] >= 0 and p["before_ms"] >= 0 for p in programs.values()), programs)
+        self.assertGreater(sum(p["ms"] + p["before_ms"] for p in programs.values()), 0)
+        (result,) = self.bench("--size", "64x64", "--clock", "finish")
+        self.assertIsNone(result["gl"]["programs"])
 
     def test_sweep_is_the_product(self):
         results = self.bench("--view", "none", "--sweep", "particles=500,1000", "--sweep", "threads=1,2")

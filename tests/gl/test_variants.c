@@ -686,7 +686,7 @@ static void every_form_is_made(void **state)
     draw_views(&def, true);
     surfaces_are_walked_on();
     texts_only = false;
-    gl_debug_install(); /* errors begin anew: there were no programs */
+    gl_context_begin(); /* errors begin anew: there were no programs */
 }
 
 static void worlds_live(void **state)

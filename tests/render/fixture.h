@@ -47,7 +47,7 @@ static inline int context_setup(void **state)
         fprintf(stderr, "%s\n", error.message);
         return 1;
     }
-    gl_debug_install();
+    gl_context_begin();
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS); /* a message belongs to the test that made the error */
     draw_check_install();
     return 0;

@@ -123,11 +123,11 @@ static void test_include_by_a_name(void **state)
 static void test_errors_are_counted(void **state)
 {
     (void)state;
-    gl_debug_install();
+    gl_context_begin();
     assert_int_equal(gl_debug_errors(), 0);
     glBindBuffer(GL_ARRAY_BUFFER, 0xdead);
     assert_int_equal(gl_debug_errors(), 1);
-    gl_debug_install();
+    gl_context_begin();
     assert_int_equal(gl_debug_errors(), 0);
 }
 
@@ -135,12 +135,12 @@ static void test_errors_are_counted(void **state)
 static void test_who_asks_for_memory_drops_no_other_error(void **state)
 {
     (void)state;
-    gl_debug_install();
+    gl_context_begin();
     glDisable(GL_DEBUG_OUTPUT);
     glBindBuffer(GL_ARRAY_BUFFER, 0xdead);
     assert_int_equal(gl_errors_take(GL_OUT_OF_MEMORY), 0);
     assert_int_equal(gl_debug_errors(), 1);
-    gl_debug_install();
+    gl_context_begin();
 }
 
 static int asked;
@@ -162,7 +162,7 @@ static void test_errors_without_end_are_not_waited_for(void **state)
     epoxy_glGetError = before;
     assert_in_range(asked, 2, 1000);
     assert_true(found > 0 && short_of_memory == 0);
-    gl_debug_install(); /* counted */
+    gl_context_begin(); /* counted */
 }
 
 int main(void)
