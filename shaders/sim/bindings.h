@@ -64,6 +64,10 @@
 #define PARTS_BUFFER       5
 #define SOLVE_BUFFER       6
 
+/* Clears and copies */
+#define CLEARED_BUFFER 0
+#define COPIED_BUFFER  1
+
 /* Locations of uniforms of single passes */
 #define PASS_DT_AT         0 /* s */
 #define FORCES_DT_AT       1
@@ -73,6 +77,7 @@
 #define FINGER_VELOCITY_AT 1 /* xyz: of the point, m/s; w: grip */
 #define FINGER_KICK_AT     2
 #define FLOW_AT            0 /* number of a layer or drain, index of the marks' total, 1: a drain */
+#define WORDS_AT           0 /* of a clear or copy: number of words, first of the source, first of the copies */
 #define COLUMN_AT          0 /* first number of a scratch column, and first of its parts */
 
 /* Limits of the scene, in C FLUIDS_MAX ... */

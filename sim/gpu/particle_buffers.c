@@ -6,6 +6,7 @@
 #include "sim/step/world.h"
 
 #include <epoxy/gl.h>
+#include <stdlib.h>
 #include <string.h>
 
 bool mailbox_create(Mailbox *mailbox, const char *label, size_t bytes)
@@ -17,13 +18,13 @@ bool mailbox_create(Mailbox *mailbox, const char *label, size_t bytes)
     glObjectLabel(GL_BUFFER, mailbox->buffer, -1, label);
     glCreateBuffers(1, &mailbox->copy);
     glObjectLabel(GL_BUFFER, mailbox->copy, -1, label);
-    glNamedBufferStorage(mailbox->buffer, size, NULL, GL_DYNAMIC_STORAGE_BIT);
+    void *zeros = calloc(1, bytes);
+    glNamedBufferStorage(mailbox->buffer, size, zeros, GL_DYNAMIC_STORAGE_BIT);
+    free(zeros);
     glNamedBufferStorage(mailbox->copy, size, NULL, access | GL_CLIENT_STORAGE_BIT);
     const bool none = gl_errors_take(GL_OUT_OF_MEMORY) > 0;
-    if (!none) {
-        glClearNamedBufferData(mailbox->buffer, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    if (!none)
         mailbox->mapped = glMapNamedBufferRange(mailbox->copy, 0, size, access);
-    }
     return mailbox->mapped != NULL;
 }
 

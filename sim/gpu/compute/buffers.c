@@ -1,6 +1,7 @@
 #include "sim/gpu/compute/compute.h"
 
 #include "shaders/sim/bindings.h"
+#include "shaders/sim/watch_block.h"
 #include "sim/gpu/gl.h"
 #include "sim/gpu/packing.h"
 #include "sim/step/backend.h"
@@ -63,7 +64,7 @@ static bool widen(Compute *c, unsigned *buffer, int before, int count)
     if (!wider)
         return c->full = false;
     if (*buffer && before > 0)
-        glCopyNamedBufferSubData(*buffer, wider, 0, 0, (GLsizeiptr)(4 * (size_t)before * c->capacity));
+        compute_copy(c, *buffer, wider, 0, 4 * (size_t)before * c->capacity);
     glDeleteBuffers(1, buffer);
     *buffer = wider;
     return true;
@@ -121,22 +122,14 @@ static GLintptr place_of(const Compute *c, int k, size_t i)
     return (GLintptr)(4 * ((size_t)k * c->capacity + i));
 }
 
-static void clear_one(const Compute *c, int k)
+/* Missing columns become 0; `zeros`: `count` numbers. */
+static void compute_own_upload(const Compute *c, const ParticleColumns *from, const uint32_t *zeros)
 {
-    if (c->count > 0)
-        glClearNamedBufferSubData(c->now.own, GL_R32F, place_of(c, k, 0), (GLsizeiptr)(4 * c->count), GL_RED,
-                                  GL_FLOAT, NULL);
-}
-
-/* A column is either written or cleared: NVIDIA's driver (580) let a clear overtake a later write. */
-static void compute_own_upload(const Compute *c, const ParticleColumns *from)
-{
-    for (int k = 0; k < c->own.count; k++)
-        if (from->own[c->own.place[k]])
-            glNamedBufferSubData(c->now.own, place_of(c, k, 0), (GLsizeiptr)(4 * c->count),
-                                 from->own[c->own.place[k]]);
-        else
-            clear_one(c, k);
+    for (int k = 0; k < c->own.count; k++) {
+        const float *column = from->own[c->own.place[k]];
+        glNamedBufferSubData(c->now.own, place_of(c, k, 0), (GLsizeiptr)(4 * c->count),
+                             column ? (const void *)column : zeros);
+    }
 }
 
 static void compute_own_download(const Compute *c, const ParticleColumns *to)
@@ -147,10 +140,10 @@ static void compute_own_download(const Compute *c, const ParticleColumns *to)
                                     to->own[c->own.place[k]]);
 }
 
-static void compute_own_copy(const Compute *c, unsigned from, unsigned to)
+static void compute_own_copy(Compute *c, unsigned from, unsigned to)
 {
     for (int k = 0; k < c->own.count; k++)
-        glCopyNamedBufferSubData(from, to, place_of(c, k, 0), place_of(c, k, 0), (GLsizeiptr)(4 * c->count));
+        compute_copy(c, from, to, (size_t)place_of(c, k, 0), 4 * c->count);
 }
 
 void compute_own_copy_one(const Compute *c, int k, unsigned to)
@@ -237,14 +230,11 @@ void compute_particles_destroy(ComputeParticles *particles)
     glDeleteBuffers(1, &particles->own);
 }
 
-void compute_particles_copy(const Compute *c, ComputeParticles from, ComputeParticles to)
+void compute_particles_copy(Compute *c, ComputeParticles from, ComputeParticles to)
 {
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     for (int b = POSITION; b < MOVED; b++)
-        glCopyNamedBufferSubData(*moved_in(&from, b), *moved_in(&to, b), 0, 0,
-                                 (GLsizeiptr)(entry_bytes(b) * c->count));
+        compute_copy(c, *moved_in(&from, b), *moved_in(&to, b), 0, entry_bytes(b) * c->count);
     compute_own_copy(c, from.own, to.own);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void compute_swap(Compute *c)
@@ -263,7 +253,8 @@ static void upload(const Compute *c, const ParticleColumns *from, uint32_t *entr
         packing_pack(&packing, b, c->constants->method, from, c->count, NULL, entries);
         glNamedBufferSubData(buffer_of(c, b), 0, (GLsizeiptr)(entry_bytes(b) * c->count), entries);
     }
-    compute_own_upload(c, from);
+    memset(entries, 0, 4 * c->count);
+    compute_own_upload(c, from, entries);
 }
 
 static void download(const Compute *c, const ParticleColumns *to, uint32_t *entries)
@@ -307,7 +298,8 @@ bool compute_download(const Compute *c, ParticleColumns *columns)
 
 void compute_watch_reset(Compute *c, size_t guarded)
 {
-    glClearNamedBufferData(c->watch.buffer, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    static const WatchBlock nothing;
+    glNamedBufferSubData(c->watch.buffer, 0, sizeof nothing, &nothing);
     mailbox_forget(&c->watch);
     c->watch_due = c->watch_here = false;
     c->longest = 0;

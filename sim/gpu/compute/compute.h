@@ -54,6 +54,8 @@ typedef struct ComputeScratch {
     X(BIN, "compute/bin")                                                                                    \
     X(SCAN, "compute/scan")                                                                                  \
     X(SCAN_ADD, "compute/scan_add")                                                                          \
+    X(CLEAR, "compute/clear")                                                                                \
+    X(COPY, "compute/copy")                                                                                  \
     X(PLACE, "compute/place")                                                                                \
     X(SORT, "compute/sort")                                                                                  \
     X(MOVE, "compute/move")                                                                                  \
@@ -210,13 +212,20 @@ const ShaderBuffer *compute_buffer_at(const Constants *constants, int k);
 
 ComputeScratch compute_scratch_of(const Constants *constants);
 
-/* A zeroed storage buffer of `bytes`; 0 if memory is short, and sets `full`. */
+/* A zeroed storage buffer of `bytes`; 0 if memory is short, and sets `full`. compute_buffer_of: with first
+   contents. */
 unsigned compute_buffer(Compute *compute, const char *label, size_t bytes);
+unsigned compute_buffer_of(Compute *compute, const char *label, size_t bytes, const void *contents);
+
+/* By a pass: zeroes the first `bytes` of a buffer, or copies bytes between buffers. Multiples of 4; a barrier
+   for storage follows. */
+void compute_clear(Compute *compute, unsigned buffer, size_t bytes);
+void compute_copy(Compute *compute, unsigned from, unsigned to, size_t at, size_t bytes);
 
 /* Return false with the reason. */
 bool compute_particles_create(Compute *compute, ComputeParticles *particles, Error *error);
 void compute_particles_destroy(ComputeParticles *particles);
-void compute_particles_copy(const Compute *compute, ComputeParticles from, ComputeParticles to);
+void compute_particles_copy(Compute *compute, ComputeParticles from, ComputeParticles to);
 
 /* Downloads the particles to columns; free with columns_destroy. Returns false if memory is short. */
 bool compute_download(const Compute *compute, ParticleColumns *columns);

@@ -64,7 +64,8 @@ bool compute_flow_send(Compute *c)
     if (c->flow.calls == 0)
         return false;
     mailbox_send(&c->flow.counts);
-    glClearNamedBufferData(c->flow.counts.buffer, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    static const FlowCounts nothing;
+    glNamedBufferSubData(c->flow.counts.buffer, 0, sizeof nothing, &nothing);
     return true;
 }
 

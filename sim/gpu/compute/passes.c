@@ -121,22 +121,31 @@ bool compute_no_memory(const Compute *c, Error *error)
                      c->count, c->fold.count);
 }
 
-unsigned compute_buffer(Compute *c, const char *label, size_t bytes)
+unsigned compute_buffer_of(Compute *c, const char *label, size_t bytes, const void *contents)
 {
     GLuint name;
     const size_t size = bytes > 0 ? bytes : 16;
     glCreateBuffers(1, &name);
     glObjectLabel(GL_BUFFER, name, -1, label);
-    glNamedBufferStorage(name, (GLsizeiptr)size, NULL, GL_DYNAMIC_STORAGE_BIT);
+    glNamedBufferStorage(name, (GLsizeiptr)size, bytes > 0 ? contents : NULL, GL_DYNAMIC_STORAGE_BIT);
     const bool none = gl_errors_take(GL_OUT_OF_MEMORY) > 0;
     c->full |= none;
     if (none) { /* a name without storage would be taken for a buffer */
         glDeleteBuffers(1, &name);
         return 0;
     }
-    glClearNamedBufferData(name, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT); /* NVIDIA's 580 lets a clear pass the next write */
     c->bytes += size;
+    return name;
+}
+
+unsigned compute_buffer(Compute *c, const char *label, size_t bytes)
+{
+    const unsigned name = compute_buffer_of(c, label, bytes, NULL);
+    if (!name)
+        return 0;
+    glClearNamedBufferData(name, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    glFinish(); /* NVIDIA's 580: the clear overtakes a later glNamedBufferSubData, and a barrier does not help
+                 */
     return name;
 }
 
@@ -222,6 +231,29 @@ void compute_run(Compute *c, ComputePass pass, size_t count)
     } else
         dispatch((count + COMPUTE_GROUP - 1) / COMPUTE_GROUP);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | (watched ? GL_UNIFORM_BARRIER_BIT : 0));
+}
+
+/* Runs a pass over numbers of 4 bytes: clear.comp, copy.comp. */
+static void run_words(Compute *c, ComputePass pass, size_t bytes, size_t from, size_t to)
+{
+    enum { WORDS = 4 }; /* an invocation's */
+    const size_t words = bytes / 4, per_group = (size_t)WORDS * COMPUTE_GROUP;
+    if (words == 0)
+        return;
+    glProgramUniform3ui(c->program[pass], WORDS_AT, (GLuint)words, (GLuint)(from / 4), (GLuint)(to / 4));
+    compute_run(c, pass, (words + per_group - 1) / per_group * COMPUTE_GROUP);
+}
+
+void compute_clear(Compute *c, unsigned buffer, size_t bytes)
+{
+    BIND(c, [CLEARED_BUFFER] = buffer);
+    run_words(c, COMPUTE_CLEAR, bytes, 0, 0);
+}
+
+void compute_copy(Compute *c, unsigned from, unsigned to, size_t at, size_t bytes)
+{
+    BIND(c, [CLEARED_BUFFER] = to, [COPIED_BUFFER] = from);
+    run_words(c, COMPUTE_COPY, bytes, at, at);
 }
 
 static void meshes_bind(const Compute *c)

@@ -260,8 +260,8 @@ StepWatch compute_watch(void *state)
                             .max_density_ratio = float_of_bits(watched->greatest_density_ratio)};
     c->guarded = watched->guarded;
     c->longest = 0;
-    glClearNamedBufferSubData(c->watch.buffer, GL_R32UI, 0, offsetof(WatchBlock, guarded), GL_RED_INTEGER,
-                              GL_UNSIGNED_INT, NULL);
+    static const WatchBlock nothing;
+    glNamedBufferSubData(c->watch.buffer, 0, offsetof(WatchBlock, guarded), &nothing);
     return seen;
 }
 

@@ -179,7 +179,7 @@ bool compute_boundary_create(Compute *c)
         memcpy(rest + 4 * i, boundary->rest + 3 * i, 3 * sizeof *rest);
         rest[4 * i + 3] = boundary->solid[i];
     }
-    b->rest = compute_buffer(c, "boundary particles at rest", 16 * n);
+    b->rest = compute_buffer_of(c, "boundary particles at rest", 16 * n, rest);
     b->cell = compute_buffer(c, "boundary cells", 4 * n);
     b->rank = compute_buffer(c, "boundary ranks", 4 * n);
     b->order = compute_buffer(c, "boundary order", 4 * n);
@@ -189,8 +189,6 @@ bool compute_boundary_create(Compute *c)
     b->state = compute_buffer(c, "boundary pressures", 8 * n);
     b->block = compute_buffer(c, "solids", sizeof(SolidStepsBlock));
     b->exact = compute_buffer(c, "shapes of solids", sizeof(ExactShapesBlock));
-    if (b->rest)
-        glNamedBufferSubData(b->rest, 0, (GLsizeiptr)(16 * n), rest);
     free(rest);
     return true;
 }
@@ -231,8 +229,7 @@ void compute_boundary_grid(Compute *c)
     if (!b->due)
         return;
     b->due = false;
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-    glClearNamedBufferData(b->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    compute_clear(c, b->start, 4 * (places + 2));
     compute_boundary_bind(c);
     BIND(c, [RESTS_BUFFER] = b->rest, [CELLS_BUFFER] = b->cell, [RANKS_BUFFER] = b->rank,
          [STARTS_BUFFER] = b->start);
@@ -263,11 +260,6 @@ static size_t bytes(const Compute *c)
     return parts(c) * sizeof(ForcePart);
 }
 
-static void clear(unsigned buffer)
-{
-    glClearNamedBufferData(buffer, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
-}
-
 static bool prepare(Compute *c)
 {
     ComputeForces *forces = &c->forces;
@@ -281,10 +273,11 @@ static bool prepare(Compute *c)
     return forces->buffer && forces->marked && forces->sums.mapped;
 }
 
-static void forces_clear(ComputeForces *forces)
+static void forces_clear(Compute *c)
 {
-    clear(forces->buffer);
-    clear(forces->marked);
+    ComputeForces *forces = &c->forces;
+    compute_clear(c, forces->buffer, bytes(c));
+    compute_clear(c, forces->marked, bytes(c));
     forces->seconds = forces->seconds_marked = 0;
 }
 
@@ -295,7 +288,7 @@ bool compute_enable_forces(void *state, Forces *to, Error *error)
     if (to && !prepare(c))
         return error_set(error, "the GPU has no memory to sum forces; use a larger spacing");
     if (to)
-        forces_clear(&c->forces);
+        forces_clear(c);
     c->forces.to = to;
     if (compute_programs(c, compute_changes_with_forces, error))
         return true;
@@ -315,18 +308,16 @@ void compute_add_solid_forces(Compute *c, const Pass *pass, float dt)
 void compute_forces_mark(Compute *c)
 {
     ComputeForces *forces = &c->forces;
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     if (forces->to)
-        glCopyNamedBufferSubData(forces->buffer, forces->marked, 0, 0, (GLsizeiptr)bytes(c));
+        compute_copy(c, forces->buffer, forces->marked, 0, bytes(c));
     forces->seconds_marked = forces->seconds;
 }
 
 void compute_forces_back(Compute *c)
 {
     ComputeForces *forces = &c->forces;
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     if (forces->to)
-        glCopyNamedBufferSubData(forces->marked, forces->buffer, 0, 0, (GLsizeiptr)bytes(c));
+        compute_copy(c, forces->marked, forces->buffer, 0, bytes(c));
     forces->seconds = forces->seconds_marked;
 }
 
@@ -352,7 +343,7 @@ bool compute_forces_send(Compute *c)
     compute_run(c, COMPUTE_FORCES_SUM, (size_t)(1 + c->constants->solid_count) * COMPUTE_GROUP);
     mailbox_send(&forces->sums);
     forces->to->seconds += forces->seconds;
-    forces_clear(forces);
+    forces_clear(c);
     return true;
 }
 

@@ -16,8 +16,8 @@ void compute_grid(void *state)
 {
     Compute *c = state;
     unsigned order = c->order;
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-    glClearNamedBufferData(c->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    compute_clear(c, c->start, 4 * (c->fold.count + 1));
     BIND(c, [POSITIONS_BUFFER] = c->now.position, [CELLS_BUFFER] = c->cell, [RANKS_BUFFER] = c->rank,
          [STARTS_BUFFER] = c->start);
     compute_run(c, COMPUTE_BIN, c->count);
