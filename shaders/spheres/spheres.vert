@@ -1,12 +1,16 @@
-// Four vertices per particle: the corners of its bound on the screen.
+// Four vertices per particle: the corners of its bound on the screen. A solver's particles are in the order of its cells, along z
+// last: drawn from their nearer end, hidden ones fail the early depth test.
 #include "common/frame.glsl"
 #include "common/particles.glsl"
 #include "common/sphere.glsl"
 #include "common/ball.glsl"
+#include "shaders/spheres/spheres_bindings.h"
 #ifdef VEILED
 #include "common/particle_veils.glsl"
 layout(location = 3) flat out vec2 door;
 #endif
+
+layout(location = LAST_AT) uniform uint last;
 
 layout(location = 0) noperspective out vec3 offset;
 layout(location = 1) flat out vec3 constants;
@@ -15,6 +19,8 @@ layout(location = 2) flat out uint index;
 void main()
 {
     index = uint(gl_VertexID) >> 2;
+    if (box_to_eye[2].z > 0.0)
+        index = last - index;
     Ball ball = ball_of(index);
     vec3 centre = (box_to_eye * vec4(ball.centre, 1.0)).xyz;
     Sphere sphere = sphere_at(centre, ball.radius);

@@ -2,6 +2,7 @@
 #ifndef SLOSH_SPHERES_BINDINGS_H
 #define SLOSH_SPHERES_BINDINGS_H
 
-#define SEEN_UNIT 1 /* texture: the visible particle in each pixel */
+#define SEEN_UNIT 1  /* texture: the visible particle in each pixel */
+#define LAST_AT   16 /* location: number of the last particle */
 
 #endif

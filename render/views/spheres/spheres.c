@@ -148,6 +148,7 @@ static void find_visible(Spheres *spheres, const ParticleBuffers *particles, con
     glUseProgram(program);
     particle_bind(program, particles, view_color_by(frame->def));
     if (!points) {
+        glUniform1ui(LAST_AT, (GLuint)particles->count - 1);
         quad_indices_draw(&spheres->quads, particles->count);
         return;
     }
