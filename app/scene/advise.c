@@ -526,6 +526,12 @@ void scene_advise_key(const Scene *scene, const char *path, Notes *notes)
         notes_add(notes, NO_EFFECT, path, need);
 }
 
+bool scene_key_works(const Scene *scene, const char *path)
+{
+    char need[NEED_SIZE];
+    return !lacks(scene, path, true, need);
+}
+
 /* Visits each key with a value; paths are as people write them. */
 static void walk(const YamlTree *tree, const YamlNode *node, const char *path, const Scene *scene,
                  Notes *notes)

@@ -180,8 +180,10 @@ struct YamlTree; /* app/scene/yaml/yaml.h */
    begin with the key's path. */
 void scene_advise(const struct YamlTree *tree, const Scene *scene, Notes *notes);
 
-/* Adds a line if a key set at run time has no effect. */
+/* Adds a line if a key set at run time has no effect. scene_key_works: false if the key at `path` would have
+   none with any value. */
 void scene_advise_key(const Scene *scene, const char *path, Notes *notes);
+bool scene_key_works(const Scene *scene, const char *path);
 
 /* Files of a scene: the scene file itself, found and read, also from a picture; and the files that a
    scene names. */

@@ -400,15 +400,15 @@ void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *da
         draw_figures(ui, data);
         draw_warnings(ui, data);
         draw_buttons(ui, data, events);
+        if (!data->recorded)
+            panel_play(ui, data, &panel->start, &panel->fluid, events);
+        if (!data->recorded)
+            panel_flow(ui, data, events);
         panel_view(ui, data, &panel->start, events);
         panel_colors(ui, data, &panel->start, events);
         if (!data->recorded)
             panel_devices(ui, data, events);
-        if (!data->recorded)
-            panel_flow(ui, data, events);
         panel_scene(ui, data, &panel->start, events);
-        if (!data->recorded)
-            panel_restart(ui, data, &panel->fluid, events);
         if (!data->recorded)
             panel_box(ui, data, events);
         if (!data->recorded)

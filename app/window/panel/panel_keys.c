@@ -55,8 +55,11 @@ static UiScale scale_of(const Key *key, double start, double now, const char *un
                      .most = key->max,
                      .whole = key->type == KEY_INTEGER,
                      .unit = unit};
+    const double small = 10;
     scale.low = key->min;
     scale.high = key->max;
+    if (key->max - key->min <= small && start > 0 && !open)
+        return scale;
     if (start > 0 && (key->min <= 0 || key->max / key->min > 100)) {
         scale.low = fmax(start / 10, key->min);
         scale.high = fmin(start * 10, key->max);
@@ -284,14 +287,19 @@ enum { NAME_LENGTH = 48, PATH_LENGTH = 64 };
 
 /* Keys belonging to a scalar, and the range in use while automatic. */
 static const struct {
-    const char *path;
+    const char *path, *label;
     enum { COLOR_RANGE, OPACITY_RANGE, SIZE_RANGE } range;
 } color_keys[] = {
-    {"view.color_by", COLOR_RANGE},        {"view.colormap", COLOR_RANGE},
-    {"view.color_curve", COLOR_RANGE},     {"view.range", COLOR_RANGE},
-    {"view.opacity.by", OPACITY_RANGE},    {"view.opacity.curve", OPACITY_RANGE},
-    {"view.opacity.range", OPACITY_RANGE}, {"view.size.by", SIZE_RANGE},
-    {"view.size.curve", SIZE_RANGE},       {"view.size.range", SIZE_RANGE},
+    {"view.color_by", "color by", COLOR_RANGE},
+    {"view.colormap", "colormap", COLOR_RANGE},
+    {"view.color_curve", "color curve", COLOR_RANGE},
+    {"view.range", "color range", COLOR_RANGE},
+    {"view.opacity.by", "opacity by", OPACITY_RANGE},
+    {"view.opacity.curve", "opacity curve", OPACITY_RANGE},
+    {"view.opacity.range", "opacity range", OPACITY_RANGE},
+    {"view.size.by", "size by", SIZE_RANGE},
+    {"view.size.curve", "size curve", SIZE_RANGE},
+    {"view.size.range", "size range", SIZE_RANGE},
 };
 
 /* Live keys without a widget. */
@@ -307,10 +315,18 @@ static const struct {
 static const char RENDER_GROUP[] = "Film";
 static const char *const of_render[] = {"view.camera_turn", "view.carries_scene"};
 
-static bool is_of_render(const Key *key)
+/* Live keys to play with, and keys that say what the picture is. */
+static const char PLAY_GROUP[] = "Play", VIEW_GROUP[] = "View", MORE_GROUP[] = "More of the view";
+static const char *const of_play[] = {"gravity", "fluids[].viscosity"};
+static const char *const of_view[] = {"view.kind", "view.volume.look", "view.splat.shading", "view.quality",
+                                      "view.radius"};
+
+#define IS_AMONG(paths, key) is_among(paths, sizeof(paths) / sizeof *(paths), key)
+
+static bool is_among(const char *const paths[], size_t count, const Key *key)
 {
-    for (size_t i = 0; i < sizeof of_render / sizeof *of_render; i++)
-        if (strcmp(of_render[i], key->path) == 0)
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(paths[i], key->path) == 0)
             return true;
     return false;
 }
@@ -354,14 +370,20 @@ static bool is_of_another_view(const Key *key, const Scene *scene)
            !(strlen(shown) == length && strncmp(shown, part, length) == 0);
 }
 
-/* Fills in the heading of a key: "solver.step.dt" is in "Solver", "gravity" in "World", the shown view's
-   own keys in "View", an overlay's under the overlay's name. */
+/* Fills in the heading of a key: "solver.step.dt" is in "Solver", "boundary" in "World", the shown view's
+   own keys in "View" or "More of the view", an overlay's under the overlay's name. */
 static void group_of(const Key *key, char name[NAME_LENGTH])
 {
     const char *part;
     const size_t length = strcspn(key->path, ".["), own = part_of_view(key, &part);
-    if (is_of_render(key))
+    const bool of_a_view =
+        strncmp(key->path, "view.", strlen("view.")) == 0 && (own == 0 || is_a_view(part, own));
+    if (IS_AMONG(of_render, key))
         snprintf(name, NAME_LENGTH, "%s", RENDER_GROUP);
+    else if (IS_AMONG(of_play, key))
+        snprintf(name, NAME_LENGTH, "%s", PLAY_GROUP);
+    else if (of_a_view)
+        snprintf(name, NAME_LENGTH, "%s", IS_AMONG(of_view, key) ? VIEW_GROUP : MORE_GROUP);
     else if (!key->path[length])
         snprintf(name, NAME_LENGTH, "World");
     else if (own > 0 && !is_a_view(part, own))
@@ -408,43 +430,6 @@ static void name_of(const Key *list, const void *element, int index, char name[N
         snprintf(name, NAME_LENGTH, "%.30s %d", dot ? dot + 1 : list->path, index + 1);
 }
 
-static void draw_element(Ui *ui, const Key *list, int index, const Scene *scene, const Scene *start,
-                         PanelEvents *events)
-{
-    int count;
-    const Key *keys = scene_keys(&count);
-    const char *element = (const char *)scene + key_list_at(list, index);
-    char label[NAME_LENGTH], path[PATH_LENGTH];
-    name_of(list, element, index, label);
-    ui_text(ui, label);
-    for (int i = 0; i < count; i++) {
-        if (!(keys[i].flags & KEY_LIVE) || key_list(&keys[i]) != list)
-            continue;
-        label_of(&keys[i], label);
-        path_of(&keys[i], index, path);
-        panel_key(ui,
-                  &(PanelKey){.key = &keys[i],
-                              .element = index,
-                              .base = element,
-                              .start = (const char *)start + key_list_at(list, index),
-                              .path = path,
-                              .label = label},
-                  events);
-    }
-}
-
-static void draw_key(Ui *ui, const Key *key, const Scene *scene, const Scene *start, const double *range,
-                     PanelEvents *events)
-{
-    char label[NAME_LENGTH];
-    label_of(key, label);
-    panel_key(
-        ui,
-        &(PanelKey){
-            .key = key, .base = scene, .start = start, .path = key->path, .label = label, .range_now = range},
-        events);
-}
-
 /* True if the key is shown: for a recorded run only view keys; of the views' own keys only the shown
    view's. */
 static bool is_shown(const Key *key, const PanelData *data)
@@ -460,6 +445,49 @@ static bool is_in(const Key *key, const char *group, const PanelData *data)
     return strcmp(own, group) == 0 && is_shown(key, data);
 }
 
+/* The element's keys of a heading. */
+static void draw_element(Ui *ui, const Key *list, int index, const char *group, const PanelData *data,
+                         const Scene *start, PanelEvents *events)
+{
+    int count;
+    const Scene *scene = data->scene;
+    const Key *keys = scene_keys(&count);
+    const char *element = (const char *)scene + key_list_at(list, index);
+    char label[NAME_LENGTH], path[PATH_LENGTH];
+    name_of(list, element, index, label);
+    ui_text(ui, label);
+    for (int i = 0; i < count; i++) {
+        path_of(&keys[i], index, path);
+        if (key_list(&keys[i]) != list || !is_in(&keys[i], group, data) || !scene_key_works(scene, path))
+            continue;
+        label_of(&keys[i], label);
+        panel_key(ui,
+                  &(PanelKey){.key = &keys[i],
+                              .element = index,
+                              .base = element,
+                              .start = (const char *)start + key_list_at(list, index),
+                              .path = path,
+                              .label = label},
+                  events);
+    }
+}
+
+/* `words`: label; NULL: of the path. */
+static void draw_key(Ui *ui, const Key *key, const char *words, const Scene *scene, const Scene *start,
+                     const double *range, PanelEvents *events)
+{
+    char label[NAME_LENGTH];
+    if (words)
+        snprintf(label, sizeof label, "%s", words);
+    else
+        label_of(key, label);
+    panel_key(
+        ui,
+        &(PanelKey){
+            .key = key, .base = scene, .start = start, .path = key->path, .label = label, .range_now = range},
+        events);
+}
+
 static void draw_group(Ui *ui, const char *group, const PanelData *data, const Scene *start,
                        PanelEvents *events)
 {
@@ -472,19 +500,19 @@ static void draw_group(Ui *ui, const char *group, const PanelData *data, const S
             continue;
         if (list && list != last_list)
             for (int e = 0; e < key_list_count(list, data->scene); e++)
-                draw_element(ui, list, e, data->scene, start, events);
-        else if (!list)
-            draw_key(ui, &keys[i], data->scene, start, NULL, events);
+                draw_element(ui, list, e, group, data, start, events);
+        else if (!list && scene_key_works(data->scene, keys[i].path))
+            draw_key(ui, &keys[i], NULL, data->scene, start, NULL, events);
         last_list = list;
     }
 }
-
-static const char VIEW_GROUP[] = "View";
 
 void panel_view(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events)
 {
     if (ui_section(ui, VIEW_GROUP, true))
         draw_group(ui, VIEW_GROUP, data, start, events);
+    if (ui_section(ui, MORE_GROUP, false))
+        draw_group(ui, MORE_GROUP, data, start, events);
 }
 
 /* The headings already drawn. */
@@ -512,7 +540,9 @@ void panel_scene(Ui *ui, const PanelData *data, const Scene *start, PanelEvents 
     const Key *keys = scene_keys(&count);
     Groups groups = {.count = 0};
     char group[NAME_LENGTH];
+    groups_add(&groups, PLAY_GROUP);
     groups_add(&groups, VIEW_GROUP);
+    groups_add(&groups, MORE_GROUP);
     for (int i = 0; i < count; i++) {
         if (!is_shown(&keys[i], data))
             continue;
@@ -529,8 +559,9 @@ void panel_colors(Ui *ui, const PanelData *data, const Scene *start, PanelEvents
     if (!ui_section(ui, "Colours", false))
         return;
     for (size_t i = 0; i < sizeof color_keys / sizeof *color_keys; i++)
-        draw_key(ui, scene_key_find(color_keys[i].path), data->scene, start, ranges[color_keys[i].range],
-                 events);
+        if (scene_key_works(data->scene, color_keys[i].path))
+            draw_key(ui, scene_key_find(color_keys[i].path), color_keys[i].label, data->scene, start,
+                     ranges[color_keys[i].range], events);
     legend_unit(scalar_unit(view_color_by(&data->scene->view)), unit);
     snprintf(text, sizeof text, "%.4g to %.4g%s%s", data->scalar_range[0], data->scalar_range[1],
              *unit ? " " : "", unit);
@@ -650,11 +681,13 @@ static void draw_recipe(Ui *ui, const Preset *recipe, int fluid, PanelEvents *ev
         snprintf(events->restart, sizeof events->restart, "preset=%s", recipe->name);
 }
 
-void panel_restart(Ui *ui, const PanelData *data, int *fluid, PanelEvents *events)
+void panel_play(Ui *ui, const PanelData *data, const Scene *start, int *fluid, PanelEvents *events)
 {
-    if (!ui_section(ui, "Begin anew with", false))
+    if (!ui_section(ui, PLAY_GROUP, true))
         return;
+    draw_group(ui, PLAY_GROUP, data, start, events);
     draw_particles(ui, data, events);
+    ui_faint(ui, "begin anew with");
     draw_fluids(ui, data->scene, fluid);
     for (const Preset *recipe = preset_list; recipe->name; recipe++)
         draw_recipe(ui, recipe, *fluid, events);

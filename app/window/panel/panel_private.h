@@ -40,8 +40,9 @@ void panel_devices(Ui *ui, const PanelData *data, PanelEvents *events);
 void panel_box(Ui *ui, const PanelData *data, PanelEvents *events);
 void panel_flow(Ui *ui, const PanelData *data, PanelEvents *events);
 
-/* The number of particles, and presets; fluid presets apply to fluid *fluid. */
-void panel_restart(Ui *ui, const PanelData *data, int *fluid, PanelEvents *events);
+/* What one plays with: gravity, viscosities, the number of particles, and presets; fluid presets apply to
+   fluid *fluid. */
+void panel_play(Ui *ui, const PanelData *data, const Scene *start, int *fluid, PanelEvents *events);
 
 /* Keys of the shown view; meaning of colours; remaining live keys, grouped by the first part of
    their path. `start` is the scene when opened: sliders reach from a tenth to ten times the start value. */
