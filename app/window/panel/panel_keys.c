@@ -370,8 +370,8 @@ static bool is_of_another_view(const Key *key, const Scene *scene)
            !(strlen(shown) == length && strncmp(shown, part, length) == 0);
 }
 
-/* Fills in the heading of a key: "solver.step.dt" is in "Solver", "boundary" in "World", the shown view's
-   own keys in "View" or "More of the view", an overlay's under the overlay's name. */
+/* Fills in the heading of a key: "solver.step.dt" is in "Solver". The shown view's own keys are in "View" or
+   "More of the view", an overlay's under the overlay's name. */
 static void group_of(const Key *key, char name[NAME_LENGTH])
 {
     const char *part;
