@@ -307,7 +307,7 @@ bool renderer_unfinished(const Renderer *renderer)
 bool renderer_can_improve(const Renderer *renderer)
 {
     const ViewKind *kind = view_find(renderer->said.kind);
-    return renderer->said.quality == VIEW_AUTO && kind && kind->quality;
+    return renderer->said.quality == VIEW_AUTO && (!kind || kind->quality || !kind->samples);
 }
 
 bool renderer_keeps_states(const Renderer *renderer)

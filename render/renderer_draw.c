@@ -52,6 +52,7 @@ void renderer_make_whole(Renderer *renderer, GLuint framebuffer)
     whole.coarse = &renderer->upscale;
     whole.frame.width = renderer->target.width;
     whole.frame.height = renderer->target.height;
+    whole.frame.fineness = 1;
     frame_uniforms_update(renderer->uniforms, &whole.frame, last->box_size, last->spacing);
     effects_draw_whole(&whole);
     frame_uniforms_update(renderer->uniforms, &last->frame, last->box_size, last->spacing); /* for probes */
@@ -132,6 +133,7 @@ static void make_frame(Renderer *renderer, const Subject *subject, const Target 
     const double legend = legend_width_pixels(subject->def, subject->world, shown->height) / shown->width;
     frame_make(frame, subject, picture->particles, target, view_radii(kind, subject->def, picture->particles),
                (CoveredParts){renderer->covered.left, fmax(renderer->covered.right, legend)});
+    frame->fineness = fmaxf(1, (float)target->height / (float)shown->height);
     frame->plain = renderer->plain;
     frame->more = renderer->more;
     frame->neighbourhood = &renderer->derived.neighbourhood;

@@ -43,8 +43,9 @@ void box_edges_destroy(BoxEdges *edges)
 
 static void draw_edges(const BoxEdges *edges, GLuint program, const Frame *frame, bool behind)
 {
-    const float part = (float)frame->height / 720; /* 1 for a picture 720 pixels high */
-    const float width = frame_glass(frame) ? fmaxf(2, 3 * part) : fmaxf(1.5F, 1.5F * part);
+    const float fine = frame->fineness,
+                part = (float)frame->height / 720; /* 1 for a picture 720 pixels high */
+    const float width = frame_glass(frame) ? fmaxf(2 * fine, 3 * part) : fmaxf(1.5F * fine, 1.5F * part);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, behind ? GL_ONE : GL_ZERO,
                         behind ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);

@@ -288,6 +288,7 @@ void frame_make(Frame *frame, const Subject *subject, const ParticleBuffers *par
     const ViewDef *def = subject->def;
     *frame = (Frame){.width = target->width,
                      .height = target->height,
+                     .fineness = 1,
                      .def = def,
                      .world = subject->world,
                      .floating = particles->floating,
@@ -401,6 +402,7 @@ static void fill_view(FrameBlock *block, const Frame *frame)
     set2(block->view_tangent, camera->tangent[0], camera->tangent[1]);
     set2(block->view_centre, camera->centre[0], camera->centre[1]);
     block->near_plane = camera->near_plane;
+    block->fineness = frame->fineness;
     set2(block->picture_size, frame->width, frame->height);
     set2(block->pixel_size, 1.0 / frame->width, 1.0 / frame->height);
 }

@@ -33,6 +33,7 @@ enum {
     VIEW_TITLE_SIZE = 96,
     VIEW_KINDS_MAX = 8,
     OVERLAY_KINDS_MAX = 4,
+    FINEST_RESOLUTION = 2, /* of ViewDef.resolution */
     VIEW_OWN_SIZE = 3072,
     VIEW_SET_SIZE = 512
 };
@@ -102,7 +103,7 @@ typedef struct ViewDef {
     double background[3];         /* linear RGB 0..1, at the horizon */
     int quality;                  /* a ViewQuality: changes keys with default values, see view_at_quality */
     int drawn_quality; /* not a key: chosen for this picture by view_at_quality; VIEW_AUTO before */
-    double resolution; /* pixels drawn per pixel shown, along each axis; more than 0, at most 1 */
+    double resolution; /* pixels drawn per pixel shown, along each axis; more than 0, at most 2 */
     ViewOwnSettings own;
     /* For one of several views: the source of its states; none: the scene. Not read in render. */
     const char *file; /* a recorded run; NULL: none */
@@ -438,6 +439,7 @@ struct Neighbourhood;
 /* A picture as all its passes see it. */
 typedef struct Frame {
     int width, height; /* pixels */
+    float fineness;    /* pixels drawn per pixel shown along each axis, at least 1: lines are so much wider */
     const ViewDef *def;
     const WorldDef *world;
     const BoxState *floating; /* poses of the world's floating solids: ParticleBuffers.floating */
@@ -472,7 +474,7 @@ typedef struct Frame {
 /* Frame.slab: a two-dimensional scene is as deep as one particle layer. */
 double frame_slab_depth(const ParticleBuffers *particles);
 
-/* Fills all of `frame` except timer, counts, stale, more, plain, depths, floor.light,
+/* Fills all of `frame`, with fineness 1, except timer, counts, stale, more, plain, depths, floor.light,
    neighbourhood and over. */
 void frame_make(Frame *frame, const Subject *subject, const ParticleBuffers *particles, const Target *target,
                 ParticleRadii radii, CoveredParts covered);

@@ -94,19 +94,23 @@ static inline unsigned frame_over_depth(const Frame *frame)
     return frame->over ? frame->over->depth : 0;
 }
 
-/* A coarse picture: drawn with fewer pixels than shown, then enlarged. Edges and text are drawn at full
-   resolution over the enlarged picture. Needs a current OpenGL 4.5 core context. */
+/* A picture of another resolution than shown: drawn with fewer pixels, then enlarged; or with more, whose
+   means are shown, for smooth outlines. Edges and text are drawn at full resolution over the result. Needs a
+   current OpenGL 4.5 core context. */
 
 /* Zero-initialise: then pictures have full resolution. */
 typedef struct Upscale {
-    Target target;                     /* framebuffer 0: no coarse picture */
-    unsigned encoded;                  /* texture view of the target's colour, as sRGB-encoded bytes */
+    Target target;  /* framebuffer 0: as many pixels as shown */
+    bool fine;      /* more pixels than shown */
+    unsigned shown; /* texture view of the target's colour: sRGB-encoded bytes, or, if fine,
+                       linear light */
     unsigned program, edges, vertices; /* `edges`: program for the box's edges, tested against the target's
                                           depth */
 } Upscale;
 
-/* Adapts to a picture of `width` x `height` pixels, drawn at the fraction `resolution` (0 .. 1) along each
-   axis; 1: all zero. Returns false on failure and changes nothing. */
+/* Adapts to a picture of `width` x `height` pixels, drawn at `resolution` times the pixels along each axis,
+   0 .. 2; 1: all zero. Above 1 less for a picture so large that more than 2^24 pixels would be drawn.
+   Returns false on failure and changes nothing. */
 bool upscale_update(Upscale *coarse, double resolution, int width, int height, Error *error);
 void upscale_destroy(Upscale *coarse);
 

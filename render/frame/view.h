@@ -131,6 +131,7 @@ typedef struct ViewKind {
     bool (*own_colors)(const ViewDef *def);
     /* Changes keys that have their defaults, for a draft or for best quality; NULL: no change. */
     void (*quality)(ViewDef *def, ViewQuality quality);
+    bool samples; /* averages samples of a pixel itself: best quality draws no more pixels */
     /* True if drawing costs as much as clear fluid, which a moving window draws as a draft on a software
        driver; NULL: never. */
     bool (*expensive)(const ViewDef *def);

@@ -9,5 +9,5 @@ vec3 with_water_line(vec3 shaded, float share)
 // Half the line's width, in pixels.
 float water_line_width()
 {
-    return max(1.0, picture_size.y / 720.0);
+    return max(fineness, picture_size.y / 720.0);
 }

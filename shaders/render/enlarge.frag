@@ -1,5 +1,9 @@
-// Enlarges a coarse picture to the screen: encoded colours, read and written unchanged.
+// Shows a picture of another resolution. Fewer pixels are enlarged: encoded colours, read and written unchanged. With FINE, more
+// pixels are averaged in linear light: at twice the resolution the linear filter takes the mean of four.
 #include "shaders/shared/bindings.h"
+#ifdef FINE
+#include "common/encoded.glsl"
+#endif
 
 layout(binding = ENLARGED_UNIT) uniform sampler2D picture;
 layout(location = 0) in vec2 at;
@@ -8,4 +12,7 @@ layout(location = 0) out vec4 color;
 void main()
 {
     color = texture(picture, at);
+#ifdef FINE
+    color.rgb = encoded(color.rgb);
+#endif
 }

@@ -48,6 +48,7 @@ UNIFORM_BLOCK(FrameBlock, FRAME_BLOCK)
     uint walled;       /* axes with walls of the box: 1 x, 2 y, 4 z */
     float fluid_clear; /* fraction of light that the fluid lets through; 0: opaque fluid */
     uint glass;        /* glass box: 1: the edges, 2: the panes too; 0: lines */
+    float fineness;    /* pixels drawn per pixel shown, at least 1 */
 }
 BLOCK_END(FrameBlock);
 

@@ -22,10 +22,13 @@ static void a_draft_has_fewer_of_all(void **state)
     assert_int_equal(volume_def(&good)->cells, volume_usual.cells);
     assert_true(volume_def(&draft)->cells < volume_usual.cells &&
                 volume_usual.cells < volume_def(&best)->cells);
-    assert_true(draft.resolution < 1 && good.resolution == 1 && best.resolution == 1);
+    assert_true(draft.resolution < 1 && good.resolution == 1 && best.resolution == 2);
     assert_true(!volume_def(&draft)->raycast.shadows && volume_def(&good)->raycast.shadows);
     const ViewDef splats = drawn_at(VIEW_DRAFT, "splat"), whole = drawn_at(VIEW_BEST, "splat");
-    assert_true(!splat_def(&splats)->antialias && splat_def(&whole)->antialias);
+    const ViewDef usual = drawn_at(VIEW_GOOD, "splat"), averaged = drawn_at(VIEW_BEST, "pbsr");
+    assert_true(!splat_def(&splats)->antialias && splat_def(&usual)->antialias);
+    assert_true(!splat_def(&whole)->antialias && whole.resolution == 2); /* samples in its place */
+    assert_true(averaged.resolution == 1);                               /* has samples of its own */
     ViewDef filtered = view_def_default();
     text_set(filtered.kind, "splat");
     splat_def(&filtered)->filter = SPLAT_NARROW_RANGE;

@@ -46,7 +46,7 @@ static TrailSight sight_of(const TrailStore *store, const Frame *frame)
     memcpy(sight.tangent, frame->camera.tangent, sizeof sight.tangent);
     memcpy(sight.centre, frame->camera.centre, sizeof sight.centre);
     sight.near_plane = frame->camera.near_plane;
-    sight.half_width = (float)(trails_def(frame->def)->width / 2);
+    sight.half_width = (float)(trails_def(frame->def)->width / 2) * frame->fineness;
     for (int k = 0; k < 3; k++)
         sight.wrap[k] = frame->world->periodic[k] ? (float)store->box_size[k] / 2 : INFINITY;
     return sight;

@@ -580,6 +580,7 @@ static void want(const ViewDef *def, ParticleWants *wants)
 
 const ViewKind view_pbsr = {
     .name = "pbsr",
+    .samples = true,
     .help = "transparent surfaces, slices and volume of points, without sorting",
     .radius = 0.5,
     .keys = pbsr_keys,

@@ -359,7 +359,8 @@ static void splat_quality(ViewDef *def, ViewQuality quality)
 {
     if (quality == VIEW_DRAFT && splat_is_expensive(def) && def->resolution == 1)
         def->resolution = 0.5;
-    if (quality == VIEW_DRAFT && splat_def(def)->antialias == splat_usual.antialias)
+    const bool sampled = def->resolution > 1; /* the samples of each pixel smooth the outlines */
+    if ((quality == VIEW_DRAFT || sampled) && splat_def(def)->antialias == splat_usual.antialias)
         splat_def(def)->antialias = false;
 }
 
