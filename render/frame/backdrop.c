@@ -161,10 +161,15 @@ const Effect effect_backdrop = {
    map, present only in scenes with solids: shadows of solids are full at once, while the fluid's own shadow
    fades with depth. */
 
+/* FLOOR_MAP_TEXELS squared. */
+typedef struct FloorMap {
+    unsigned framebuffer, texture;
+} FloorMap;
+
 typedef struct Shadow {
-    unsigned framebuffer, map;             /* depth, SHADOW_MAP_TEXELS squared */
-    unsigned floor_framebuffer, floor_map; /* light left on the floor, FLOOR_MAP_TEXELS squared */
-    unsigned floor_program, vertex_array;
+    unsigned framebuffer, map; /* depth, SHADOW_MAP_TEXELS squared */
+    FloorMap rough, floor;     /* light left on the floor: made, and smoothed */
+    unsigned floor_program, smooth_program, vertex_array;
     unsigned solid_framebuffer, solid_map, solid_floor_program; /* 0 without solids */
 } Shadow;
 
@@ -204,6 +209,19 @@ static GLuint create_framebuffer(GLenum attachment, GLuint map, const char *labe
     return framebuffer;
 }
 
+static FloorMap create_floor_map(const char *label)
+{
+    FloorMap map = {.texture = create_map(GL_R32F, GL_LINEAR, FLOOR_MAP_TEXELS, label)};
+    map.framebuffer = create_framebuffer(GL_COLOR_ATTACHMENT0, map.texture, label);
+    return map;
+}
+
+static void destroy_floor_map(FloorMap *map)
+{
+    glDeleteFramebuffers(1, &map->framebuffer);
+    glDeleteTextures(1, &map->texture);
+}
+
 static GLuint create_floor_program(const char *label, const char *defines, Error *error)
 {
     static const char *const stages[] = {"common/screen.vert", "render/floor_shadow.frag", NULL};
@@ -216,10 +234,13 @@ static bool shadow_create(Shadow *shadow, Error *error)
         return true;
     shadow->map = create_map(GL_DEPTH_COMPONENT32F, GL_NEAREST, SHADOW_MAP_TEXELS, "shadow map");
     shadow->framebuffer = create_framebuffer(GL_DEPTH_ATTACHMENT, shadow->map, "shadow");
-    shadow->floor_map = create_map(GL_R32F, GL_LINEAR, FLOOR_MAP_TEXELS, "floor shadow map");
-    shadow->floor_framebuffer = create_framebuffer(GL_COLOR_ATTACHMENT0, shadow->floor_map, "floor shadow");
+    shadow->rough = create_floor_map("floor shadow, rough");
+    shadow->floor = create_floor_map("floor shadow");
     glCreateVertexArrays(1, &shadow->vertex_array);
-    shadow->floor_program = create_floor_program("floor shadow", NULL, error);
+    shadow->smooth_program =
+        program_create_pair("floor shadow, smooth", "common/screen.vert", "render/floor_smooth.frag", error);
+    if (shadow->smooth_program)
+        shadow->floor_program = create_floor_program("floor shadow", NULL, error);
     return shadow->floor_program != 0;
 }
 
@@ -258,11 +279,12 @@ static void shadow_destroy(void *state)
     Shadow *shadow = state;
     drop_solids(shadow);
     glDeleteFramebuffers(1, &shadow->framebuffer);
-    glDeleteFramebuffers(1, &shadow->floor_framebuffer);
+    destroy_floor_map(&shadow->rough);
+    destroy_floor_map(&shadow->floor);
     glDeleteTextures(1, &shadow->map);
-    glDeleteTextures(1, &shadow->floor_map);
     glDeleteVertexArrays(1, &shadow->vertex_array);
     glDeleteProgram(shadow->floor_program);
+    glDeleteProgram(shadow->smooth_program);
 }
 
 static void begin_map(GLuint framebuffer)
@@ -296,11 +318,15 @@ static void shade_floor_map(const Shadow *shadow, const Frame *frame)
 {
     if (frame->floor.radius <= 0)
         return;
-    glBindFramebuffer(GL_FRAMEBUFFER, shadow->floor_framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, shadow->rough.framebuffer);
     glViewport(0, 0, FLOOR_MAP_TEXELS, FLOOR_MAP_TEXELS);
     glUseProgram(shadow->solid_map ? shadow->solid_floor_program : shadow->floor_program);
     glUniform1f(CLEAR_AT, frame->fluid.clear);
     glBindVertexArray(shadow->vertex_array);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glBindFramebuffer(GL_FRAMEBUFFER, shadow->floor.framebuffer);
+    glBindTextureUnit(FLOOR_LIGHT_UNIT, shadow->rough.texture);
+    glUseProgram(shadow->smooth_program);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -316,7 +342,7 @@ static void draw_shadow(void *state, Picture *picture)
     if (shadow->solid_map)
         glBindTextureUnit(SOLID_SHADOW_UNIT, shadow->solid_map);
     shade_floor_map(shadow, &picture->frame);
-    picture->frame.floor.light = shadow->floor_map;
+    picture->frame.floor.light = shadow->floor.texture;
 }
 
 static const EffectState shadow_state = {

@@ -1,6 +1,7 @@
 #include "render/frame/frame.h"
 
 #include "shaders/shared/frame_block.h"
+#include "shaders/shared/shadow_maps.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -414,6 +415,8 @@ static void fill_light(FrameBlock *block, const Frame *frame)
     block->light_radius = LIGHT_RADIUS;
     block->shading = frame->plain ? 0 : 1;
     rotate(frame->camera.view, frame->light.to, block->light_in_eye);
+    memcpy(block->light_in_world, frame->light.to, sizeof block->light_in_world);
+    block->shadow_spread = frame->fineness == FINEST_RESOLUTION ? 1.5F / SHADOW_MAP_TEXELS : 0;
     rotate(frame->camera.view, up, block->up_in_eye);
 }
 

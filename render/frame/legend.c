@@ -105,7 +105,7 @@ static LegendLayout make_layout(const Text *text, const Frame *frame, float widt
                           .top = em,
                           .bottom = em + height_em * em,
                           .ink = ink,
-                          .faint = (ink & 0xffffff00) | 0x90,
+                          .faint = (ink & 0xffffff00) | 0xb8,
                           .panel = legend_text_is_dark(frame->def) ? 0xffffffa0 : 0x10141880};
 }
 

@@ -31,7 +31,7 @@ ViewDef view_def_shared(void)
                      .floor = true,
                      .camera_auto = true,
                      .camera = {.fov_deg = 32},
-                     .background = {0.72, 0.76, 0.80},
+                     .background = {0.25, 0.285, 0.33},
                      .resolution = 1};
 }
 

@@ -41,7 +41,7 @@ float mirrored_cosine()
 // Adds the reflected light to `inside`, the light leaving the surface.
 vec3 with_surface(Surface s, vec3 inside)
 {
-    float share = fresnel(max(-dot(s.view, s.normal), 0.0), refraction_index);
+    float share = s.bare * fresnel(max(-dot(s.view, s.normal), 0.0), refraction_index);
     return mix(inside, reflected(s, reflect(s.view, s.normal)), share);
 }
 

@@ -7,6 +7,7 @@ struct Surface {
     float lit;       // fraction of the key light after the fluid
     float key;       // fraction of the key light after fluid and solids
     float thickness; // length of fluid on the ray, m; 0 with phong
+    float bare;      // 0 behind a pane of glass, where the glass alone mirrors; else 1
 };
 
 float lobe_32(float cosine) // cosine^32

@@ -42,7 +42,7 @@ vec3 color_of(uint word, float depth, vec3 ray)
     uint layer = word >> 28;
     vec4 own = layer_color[layer];
     vec3 albedo = own.a > 0.0 ? own.rgb : value_color(word >> 20 & 255u, by_fluid != 0u && layer_light[layer].g == 0.0), normal = normal_of(word, layer), view = normalize(ray);
-    Surface s = Surface(near_plane / depth * ray, view, dot(normal, view) > 0.0 ? -normal : normal, albedo, 1.0, 1.0, 0.0);
+    Surface s = Surface(near_plane / depth * ray, view, dot(normal, view) > 0.0 ? -normal : normal, albedo, 1.0, 1.0, 0.0, 1.0);
 #ifdef SOLIDS
     s.key = solid_light(s.place);
 #endif

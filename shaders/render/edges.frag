@@ -8,6 +8,7 @@ layout(location = 0) noperspective in float across;
 layout(location = 1) in vec3 place;       // in the eye's frame
 layout(location = 2) flat in vec3 normal; // normal of the bevel, towards the eye
 layout(location = HALF_WIDTH_AT) uniform float half_width;
+layout(location = EDGES_BEHIND_AT) uniform uint behind; // 1: seen through the fluid, where a ground edge is dull
 layout(location = 0) out vec4 color;
 
 const vec3 along_glass = vec3(0.09, 0.21, 0.20);
@@ -17,9 +18,9 @@ vec4 glass_edge(float cover)
     vec3 view = normalize(place), mirror = reflect(view, normal);
     float glint = max(dot(mirror, light_in_eye), 0.0), side = clamp(0.5 + 0.5 * across, 0.0, 1.0);
     glint *= glint, glint *= glint, glint *= glint; // a ground edge is not perfectly smooth
-    vec3 sky = environment_light((eye_to_world * vec4(place, 1.0)).xyz, mat3(eye_to_world) * mirror);
-    vec3 bright = sky * 1.1 + 2.5 * glint * light_color;
-    return vec4(mix(along_glass * (0.5 + 0.5 * background), bright, side), cover * mix(0.62, 0.8, side));
+    vec3 mirrored = environment_light((eye_to_world * vec4(place, 1.0)).xyz, mat3(eye_to_world) * mirror);
+    vec3 along = along_glass * (0.5 + 0.5 * background), bright = mirrored * 1.1 + 2.5 * glint * light_color;
+    return behind != 0u ? vec4(along, 0.5 * cover) : vec4(mix(along, bright, side), cover * mix(0.62, 0.8, side));
 }
 
 #ifdef COARSE

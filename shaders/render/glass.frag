@@ -8,11 +8,11 @@ layout(location = 0) in vec3 place;
 layout(location = 1) flat in vec3 normal;
 layout(location = 0) out vec4 color;
 
-const float ior = 1.5; // window glass
+const float ior = 1.5, most = 0.14; // window glass; at a slant more would turn the water behind grey
 
 void main()
 {
     vec3 view = normalize(place);
     vec3 mirrored = environment_light((eye_to_world * vec4(place, 1.0)).xyz, mat3(eye_to_world) * reflect(view, normal));
-    color = vec4(mirrored, fresnel(clamp(-dot(view, normal), 0.0, 1.0), ior));
+    color = vec4(mirrored, min(fresnel(clamp(-dot(view, normal), 0.0, 1.0), ior), most));
 }

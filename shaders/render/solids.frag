@@ -1,8 +1,9 @@
-// A matt surface under the shared light.
+// A solid's surface under the shared light.
 #include "common/frame.glsl"
 #include "common/light.glsl"
 #include "common/solid_light.glsl"
-#include "common/matt.glsl"
+#include "common/surface.glsl"
+#include "common/solid.glsl"
 
 layout(location = 0) in vec3 in_eye;
 layout(location = 1) in vec3 normal_in_eye;
@@ -11,5 +12,5 @@ layout(location = 0) out vec4 color;
 
 void main()
 {
-    color = vec4(matt(in_eye, normalize(normal_in_eye), albedo), 1.0);
+    color = vec4(solid_surface(in_eye, normalize(normal_in_eye), albedo), 1.0);
 }

@@ -43,12 +43,14 @@ UNIFORM_BLOCK(FrameBlock, FRAME_BLOCK)
     vec2 floor_map_size;    /* m */
     vec4 edge_color;
     vec4 fluid_color[FRAME_FLUIDS_MAX];
-    vec2 view_centre;  /* position of the view's axis on the screen, -1..1 in x and y */
-    uint by_fluid;     /* 1: particles have the fluids' colours instead of the scalar's */
-    uint walled;       /* axes with walls of the box: 1 x, 2 y, 4 z */
-    float fluid_clear; /* fraction of light that the fluid lets through; 0: opaque fluid */
-    uint glass;        /* glass box: 1: the edges, 2: the panes too; 0: lines */
-    float fineness;    /* pixels drawn per pixel shown, at least 1 */
+    vec2 view_centre;    /* position of the view's axis on the screen, -1..1 in x and y */
+    uint by_fluid;       /* 1: particles have the fluids' colours instead of the scalar's */
+    uint walled;         /* axes with walls of the box: 1 x, 2 y, 4 z */
+    float fluid_clear;   /* fraction of light that the fluid lets through; 0: opaque fluid */
+    uint glass;          /* glass box: 1: the edges, 2: the panes too; 0: lines */
+    float fineness;      /* pixels drawn per pixel shown, at least 1 */
+    float shadow_spread; /* distance of four samples' places in the shadow map, sides of the map; else 0 */
+    vec3 light_in_world; /* unit vector towards the light */
 }
 BLOCK_END(FrameBlock);
 

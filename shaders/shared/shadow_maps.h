@@ -3,7 +3,7 @@
 #define SLOSH_SHADOW_MAPS_H
 
 #define SHADOW_MAP_TEXELS 512
-#define FLOOR_MAP_TEXELS  64
+#define FLOOR_MAP_TEXELS  96
 #define CAUSTIC_TEXELS    192 /* maps of light patterns, over the area of the floor's map */
 
 #endif

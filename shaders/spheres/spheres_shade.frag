@@ -49,7 +49,7 @@ void main()
     vec3 normal = normal_at(centre, ball.radius, ray, per_ray * per_ray);
     vec3 albedo = particle_color(index);
     vec3 place = centre + ball.radius * normal;
-    float lit = fluid_light(place), key = lit;
+    float lit = fluid_light(place, gl_FragCoord.xy), key = lit;
 #ifdef SOLIDS
     key *= solid_light(place);
 #endif

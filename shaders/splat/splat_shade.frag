@@ -171,8 +171,8 @@ float line_share(ivec2 pixel)
 
 Surface surface_at(vec3 ray, float depth, vec3 normal, vec3 albedo)
 {
-    Surface s = Surface(depth * ray, normalize(ray), normal, albedo, 0.0, 0.0, 0.0);
-    s.lit = s.key = fluid_light(s.place);
+    Surface s = Surface(depth * ray, normalize(ray), normal, albedo, 0.0, 0.0, 0.0, 1.0);
+    s.lit = s.key = fluid_light(s.place, gl_FragCoord.xy);
 #ifdef SOLIDS
     s.key *= solid_light(s.place);
 #endif
@@ -181,6 +181,7 @@ Surface surface_at(vec3 ray, float depth, vec3 normal, vec3 albedo)
     s.thickness = thickness_here();
 #ifdef PANES
     s.thickness = thickness_in_box(ray, depth);
+    s.bare = glass == 2u && round_there == 0.0 ? 0.0 : 1.0;
 #endif
 #endif
     return s;

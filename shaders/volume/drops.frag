@@ -39,11 +39,11 @@ void main()
         discard;
     gl_FragDepth = depth;
     vec3 ray = ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)), place = near_plane / depth * ray;
-    float lit = fluid_light(place), key = lit;
+    float lit = fluid_light(place, gl_FragCoord.xy), key = lit;
 #ifdef SOLIDS
     key *= solid_light(place);
 #endif
-    Surface s = Surface(place, normalize(ray), normalize(place - drop.xyz), albedo, lit, key, 0.0);
+    Surface s = Surface(place, normalize(ray), normalize(place - drop.xyz), albedo, lit, key, 0.0, 1.0);
 #ifdef WATER
     s.normal = facing(s.normal, s.view);
     vec3 inside = seen_through(s);

@@ -64,7 +64,7 @@ void show(Ray ray)
 #else
     vec3 albedo = albedo_at(ray_at(ray, t), share);
     float lit = lit_at(place);
-    Surface surface = Surface(place, ray.to / ray.slant, normal, albedo, lit, key_at(place, lit), 0.0);
+    Surface surface = Surface(place, ray.to / ray.slant, normal, albedo, lit, key_at(place, lit), 0.0, glass == 2u && t <= ray.wall ? 0.0 : 1.0);
 #ifdef WATER
     color = vec4(water(surface), 1.0);
 #ifdef WHOLE

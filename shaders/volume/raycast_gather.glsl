@@ -10,7 +10,7 @@ vec3 glow_at(Ray ray, float t, vec3 albedo, float skin)
         return albedo;
     float lit = lit_at(place), key = key_at(place, lit);
     if (skin > 0.0)
-        skinned = phong(Surface(place, ray.to / ray.slant, normal_at(ray, t), albedo, lit, key, 0.0));
+        skinned = phong(Surface(place, ray.to / ray.slant, normal_at(ray, t), albedo, lit, key, 0.0, 1.0));
     vec3 sky = mix(ground_color, sky_color, 0.5) * (0.35 + 0.65 * lit);
     return mix(albedo * (sky + 0.5 * key * light_color), skinned, skin);
 }

@@ -58,7 +58,7 @@ float lit_at(vec3 place)
 #else
 float lit_at(vec3 place)
 {
-    return fluid_light(place);
+    return fluid_light(place, gl_FragCoord.xy);
 }
 #endif
 

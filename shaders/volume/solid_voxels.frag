@@ -2,7 +2,8 @@
 #include "common/frame.glsl"
 #include "common/light.glsl"
 #include "common/solid_light.glsl"
-#include "common/matt.glsl"
+#include "common/surface.glsl"
+#include "common/solid.glsl"
 #include "shaders/volume/volume_bindings.h"
 
 layout(location = SOLID_TO_EYE_AT) uniform mat4 solid_to_eye;
@@ -70,6 +71,6 @@ void main()
     float t = find(from, to, begin, end);
     if (t <= 0.0)
         discard;
-    color = vec4(matt(t * ray, normal_at(from + t * to), albedo), 1.0);
+    color = vec4(solid_surface(t * ray, normal_at(from + t * to), albedo), 1.0);
     gl_FragDepth = near_plane / t;
 }

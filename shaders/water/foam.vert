@@ -44,7 +44,7 @@ void main()
     vec3 half_box = 0.5 * box_size, place = particle_position(entry.x) + offset;
     place = clamp(place, vec3(-half_box.x, 0.0, -half_box.z), vec3(half_box.x, box_size.y, half_box.z));
     vec3 at = (box_to_eye * vec4(place, 1.0)).xyz;
-    float key = fluid_light(at), pixels = radius * picture_size.y / (view_tangent.y * max(-at.z, near_plane));
+    float key = fluid_light_at((eye_to_light * vec4(at, 1.0)).xyz), pixels = radius * picture_size.y / (view_tangent.y * max(-at.z, near_plane));
 #ifdef SOLIDS
     key *= solid_light(at);
 #endif

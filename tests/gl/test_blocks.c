@@ -51,7 +51,7 @@ static const Block blocks[] = {
           FRAME(background), FRAME(range_low), FRAME(box_size), FRAME(range_scale), FRAME(floor_center),
           FRAME(floor_height), FRAME(floor_radius), FRAME(floor_map_corner), FRAME(floor_map_size),
           FRAME(edge_color), FRAME(fluid_color[0]), FRAME(by_fluid), FRAME(walled), FRAME(fluid_clear),
-          FRAME(glass), FRAME(fineness)),
+          FRAME(glass), FRAME(fineness), FRAME(shadow_spread), FRAME(light_in_world)),
     BLOCK("shared/solid_block.h", SolidBlock, SOLID(solids[0].to_eye), SOLID(solids[0].to_light),
           SOLID(solids[0].color), SOLID(solids[1].to_eye), SOLID(solids[15].color)),
     BLOCK("volume/raycast_block.h", RaycastBlock, RAYCAST(eye_to_volume), RAYCAST(volume_to_eye),

@@ -143,7 +143,7 @@ static void test_no_shadow_of_its_own(void **state)
     SolidsScene scene = side_view();
     int least = 255, most = 0, seen = 0;
     add_plate(&scene, 0.05, 2, 1);
-    scene.def.camera = (CameraDef){{0, 3, 0.01}, {0, 0, 0}, 60};
+    scene.def.camera = (CameraDef){{0, 20, 0.01}, {0, 0, 0}, 10}; /* far from the highlight */
     draw_rgb(&scene, false, rgb);
     draw_depth(&scene, depth);
     for (int row = 0; row < HEIGHT; row++)

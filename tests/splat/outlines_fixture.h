@@ -38,6 +38,8 @@ static inline SolidsScene scene_of(double fov_deg)
     text_set(scene.def.kind, "splat");
     scene.def.color_by = SCALAR_FLUID;
     scene.def.camera.fov_deg = fov_deg;
+    for (int k = 0; k < 3; k++) /* far brighter than the fluid: outlines that matter */
+        scene.def.background[k] = 0.45;
     scene.state.spacing = spacing;
     free(scene.particles);
     scene.particles = particles_wave(spacing);

@@ -1,5 +1,6 @@
 /* The clear fluids of the view splat, against optics: the thickness on a ray, Snell's law, Beer and
  * Lambert's, Fresnel's. */
+#include "tests/render/sky.h"
 #include "tests/splat/splat_fixture.h"
 
 /* A ball of fluid on a lattice. Returns its radius by its volume, m. */
@@ -456,28 +457,20 @@ static double fresnel_at(double cosine, double ior)
     return 0.5 * (pow(sin(a - b) / sin(a + b), 2) + pow(tan(a - b) / tan(a + b), 2));
 }
 
-/* Where the sky is higher it is bluer: times that of a mirrored brightness. */
-static double sky_tint(double brightness, int component)
-{
-    static const double high[] = {0.70, 0.90, 1.10};
-    return 1 + (high[component] - 1) * (1.04 - brightness) / 0.42;
-}
-
-/* The sky's brightness in the direction that a ray is mirrored to, as in shaders/common/environment.glsl; -1
- * next to the sun. */
-static double mirrored_sky(const SplatScene *scene, const double ray[3], const double normal[3])
+/* The direction in the world that a ray is mirrored to. Returns false next to the sun. */
+static bool mirrored_to(const SplatScene *scene, const double ray[3], const double normal[3], double world[3])
 {
     const float *view = scene->frame.camera.view, *light = scene->frame.light.to;
-    double mirror[3], world[3] = {0}, sun = 0;
+    double mirror[3], sun = 0;
     for (int k = 0; k < 3; k++)
         mirror[k] = ray[k] - 2 * dot3(ray, normal) * normal[k];
     for (int k = 0; k < 3; k++) {
+        world[k] = 0;
         for (int row = 0; row < 3; row++)
             world[k] += view[4 * k + row] * mirror[row];
         sun += world[k] * light[k];
     }
-    const double rise = fmax(fmin(0.5 + 0.9 * world[1], 1), 0);
-    return sun > 0.8 ? -1 : 1.04 - 0.42 * rise * rise;
+    return sun <= 0.8;
 }
 
 /* A black fluid emits no light: only reflections are visible. */
@@ -504,15 +497,15 @@ static void reflection_by_fresnel(void **state)
                      of_normal = sqrt(dot3(pixels[i].normal, pixels[i].normal));
         for (int k = 0; k < 3; k++)
             ray[k] /= length, normal[k] = pixels[i].normal[k] / of_normal;
-        const double sky = mirrored_sky(&scene, ray, normal), cosine = -dot3(ray, normal);
-        if (sky < 0 || cosine < 0.02)
+        const double cosine = -dot3(ray, normal);
+        double mirror[3];
+        if (!mirrored_to(&scene, ray, normal, mirror) || cosine < 0.02)
             continue;
         const double share = fresnel_at(cosine, 1.333);
         greatest = fmax(greatest, share);
         compared++;
         for (int k = 0; k < 3; k++) {
-            const double wanted = share * sky * sky_tint(sky, k) * scene.def.background[k],
-                         seen = linear_of(rgba[4 * i + k]);
+            const double wanted = share * sky_light(&scene.def, mirror, k), seen = linear_of(rgba[4 * i + k]);
             if (fabs(seen - wanted) > 0.003 + 0.01 * wanted)
                 fail_msg("cosine %g: component %d is %g, not %g", cosine, k, seen, wanted);
         }

@@ -1,5 +1,6 @@
 /* The box drawn as glass: panes against Fresnel's formula, conditions for drawing, and the waterline. */
 #include "tests/render/fixture.h"
+#include "tests/render/sky.h"
 
 #include "app/files/pictures.h"
 #include "render/frame/frame.h"
@@ -16,6 +17,7 @@ static ViewDef def_of(const char *kind, ViewWalls walls)
     def.color_by = SCALAR_FLUID;
     def.camera_auto = false;
     def.camera = (CameraDef){{0.3, 0.9, 3.2}, {0, 0.5, 0}, 30};
+    def.background[0] = def.background[1] = def.background[2] = 0.4;
     splat_def(&def)->shading = SPLAT_WATER;
     splat_def(&def)->shape = SPLAT_ELLIPSOID, splat_def(&def)->filter = SPLAT_NARROW_RANGE;
     volume_def(&def)->raycast.look = RAYCAST_WATER;
@@ -73,21 +75,20 @@ static double linear(uint8_t value)
     return s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
 }
 
-/* Green of the sky in a direction of the world (shaders/common/environment.glsl). */
+/* Green of the sky in a direction of the world. */
 static double sky(const ViewDef *def, const double to[3])
 {
-    const double length = sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]),
-                 rise = fmin(fmax(0.5 + 0.9 * to[1] / length, 0), 1), bright = 1.04 - 0.42 * rise * rise;
-    return def->background[1] * bright * (1 + (0.9 - 1) * (1.04 - bright) / 0.42);
+    const double length = sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]);
+    return sky_light(def, (double[]){to[0] / length, to[1] / length, to[2] / length}, 1);
 }
 
-/* Of glass in air, at a single side. */
+/* Of glass in air, at a single side; not more than shaders/render/glass.frag allows. */
 static double mirrored(double cosine)
 {
     const double ior = 1.5, inner = sqrt(1 - (1 - cosine * cosine) / (ior * ior));
     const double s = (cosine - ior * inner) / (cosine + ior * inner),
                  p = (ior * cosine - inner) / (ior * cosine + inner);
-    return (s * s + p * p) / 2;
+    return fmin((s * s + p * p) / 2, 0.14);
 }
 
 static double through_pane(const ViewDef *def, double behind, const double to[3], int axis)

@@ -50,9 +50,9 @@ vec3 shaded(Surface s, float radius)
 Surface surface_at(Splat hit)
 {
     vec3 ray = ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy));
-    Surface s = Surface(hit.depth * ray, normalize(ray), hit.normal, color, 0.0, 0.0, 0.0);
+    Surface s = Surface(hit.depth * ray, normalize(ray), hit.normal, color, 0.0, 0.0, 0.0, 1.0);
     s.normal = facing(normalize(hit.normal), s.view);
-    s.lit = s.key = fluid_light(s.place);
+    s.lit = s.key = fluid_light(s.place, gl_FragCoord.xy);
 #ifdef SOLIDS
     s.key *= solid_light(s.place);
 #endif
