@@ -137,22 +137,39 @@ vec3 shaded(Surface s)
 #endif
 
 #ifdef PANES
+#ifdef SOLIDS
+// Means of own and full thickness of the four coarse texels around, for a ray that ends at `end`. Texels whose ray ends elsewhere, at
+// or beside a solid, count next to nothing. After: Kopf, Cohen, Lischinski and Uyttendaele, Joint bilateral upsampling, 2007.
+vec2 thickness_beside_solids(float end, float leave)
+{
+    const ivec2 corners[4] = ivec2[](ivec2(0, 1), ivec2(1, 1), ivec2(1, 0), ivec2(0, 0)); // in textureGather's order
+    vec2 size = vec2(textureSize(thickness_map, 0)), texel = gl_FragCoord.xy * pixel_size * size - 0.5, corner = floor(texel), part = texel - corner;
+    vec4 own = textureGather(thickness_map, (corner + 1.0) / size), full = textureGather(filled_map, (corner + 1.0) / size);
+    vec4 weight = vec4(1.0 - part.x, part.x, part.x, 1.0 - part.x) * vec4(part.y, part.y, 1.0 - part.y, 1.0 - part.y);
+    for (int i = 0; i < 4; i++) {
+        ivec2 pixel = ivec2((corner + vec2(corners[i]) + 0.5) / size * picture_size); // as in thickness.frag
+        float there = near_plane / max(texelFetch(behind_depth, clamp(pixel, ivec2(0), ivec2(picture_size) - 1), 0).x, 1e-30);
+        weight[i] *= abs(min(there, leave) - end) < 2.0 * particle_spacing ? 1.0 : 1e-3;
+    }
+    return vec2(dot(weight, own), dot(weight, full));
+}
+#endif
+
 // The thickness of the fluid on the straight ray. The field is blurred beyond the walls, and too small beside walls. Hence the
 // field is divided by a full box's field: gives the fluid's fraction of the ray between the walls, as sharp as the walls.
 float thickness_in_box(vec3 ray, float depth)
 {
-    float own = thickness_here(), full = textureLod(filled_map, gl_FragCoord.xy * pixel_size, 0.0).x, share = min(own / max(full, 1e-30), 1.0);
     Within box = within_box_of(ray, bvec3(true));
     float end = box.leave, enter = max(box.enter, near_plane);
 #ifdef SOLIDS
     end = min(end, near_plane / max(texelFetch(behind_depth, ivec2(gl_FragCoord.xy), 0).x, 1e-30));
-    // Texels of the coarse maps hidden by a solid lack the fluid beside the solid: takes the largest of four.
-    vec4 shares = textureGather(thickness_map, gl_FragCoord.xy * pixel_size) / max(textureGather(filled_map, gl_FragCoord.xy * pixel_size), 1e-30);
-    share = min(max(max(shares.x, shares.y), max(shares.z, shares.w)), 1.0);
+    vec2 around = thickness_beside_solids(end, box.leave);
+#else
+    vec2 around = vec2(thickness_here(), textureLod(filled_map, gl_FragCoord.xy * pixel_size, 0.0).x);
 #endif
     if (end <= enter)
-        return own;
-    float way = min((end - enter) * share, max(end - depth, 0.0));
+        return thickness_here();
+    float way = min((end - enter) * min(around.x / max(around.y, 1e-30), 1.0), max(end - depth, 0.0));
     full_share = way / max(end - depth, 1e-30);
     return way * length(ray);
 }

@@ -14,8 +14,8 @@ static ViewDef pbsr_view(int repeat)
     ViewDef def = bare_view();
     text_set(def.kind, "pbsr");
     pbsr_def(&def)->repeat = repeat;
-    for (int k = 0; k < 3; k++) /* bright, so that what hides the background is seen */
-        def.background[k] = 0.45;
+    for (int k = 0; k < 3; k++) /* bright behind dark layers */
+        def.background[k] = 0.55;
     return def;
 }
 

@@ -1,4 +1,4 @@
-/* The sky of shaders/common/environment.glsl, for tests of what mirrors it. */
+/* The sky of shaders/common/environment.glsl, for tests of mirrors. */
 #ifndef SLOSH_TESTS_SKY_H
 #define SLOSH_TESTS_SKY_H
 

@@ -214,7 +214,7 @@ static double linear_of(double byte)
     return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-/* How far a value is, in bytes, from the mean in linear light of the four pixels that it stands for. */
+/* Difference in bytes between a value and the mean of its four fine pixels, in linear light. */
 static double off_mean(const uint8_t *fine, int width, int x, int y, int k, uint8_t shown)
 {
     double sum = 0;

@@ -259,6 +259,37 @@ static void edges_behind_are_seen_through(void **state)
     }
 }
 
+/* A heap of jelly, whose thickness varies: as smooth in a scene with a solid, which is far outside the
+   picture. */
+static void a_solid_elsewhere_changes_nothing(void **state)
+{
+    (void)state;
+    uint8_t *seen[2];
+    int most = 0;
+    for (int i = 0; i < 2; i++) {
+        SplatScene scene = clear_tank();
+        size_t kept = 0;
+        splat_def(&scene.def)->shading = SPLAT_JELLY, splat_def(&scene.def)->attenuation = 0.4;
+        memcpy(scene.world.fluids[0].color, COLOUR, sizeof COLOUR);
+        for (size_t p = 0; p < scene.particles->count; p++) {
+            const float *at = &scene.particles->position[4 * p];
+            if (at[1] < 0.15 + 0.5 * fabs(at[0]))
+                memcpy(&scene.particles->position[4 * kept++], at, 4 * sizeof *at);
+        }
+        scene.particles->count = kept;
+        scene.world.solid_count = i;
+        scene.world.solids[0] = (SolidDef){.kind = SOLID_SPHERE, .centre = {0, 9, 9}, .radius = 0.1};
+        seen[i] = draw_over_grey(&scene);
+        free(scene.particles);
+    }
+    for (int i = 0; i < 4 * SIDE * SIDE; i++)
+        most = abs(seen[0][i] - seen[1][i]) > most ? abs(seen[0][i] - seen[1][i]) : most;
+    if (most > 1)
+        fail_msg("%d of 255 apart", most);
+    free(seen[0]);
+    free(seen[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -266,6 +297,7 @@ int main(void)
         cmocka_unit_test_teardown(a_drop_behind_is_seen_through, no_gl_errors),
         cmocka_unit_test_teardown(edges_behind_are_seen_through, no_gl_errors),
         cmocka_unit_test_teardown(sides_mirror_from_within, no_gl_errors),
+        cmocka_unit_test_teardown(a_solid_elsewhere_changes_nothing, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }
