@@ -14,7 +14,14 @@ static ViewDef pbsr_view(int repeat)
     ViewDef def = bare_view();
     text_set(def.kind, "pbsr");
     pbsr_def(&def)->repeat = repeat;
-    for (int k = 0; k < 3; k++) /* bright behind dark layers */
+    return def;
+}
+
+/* Bright behind dark layers. */
+static ViewDef bright_view(int repeat)
+{
+    ViewDef def = pbsr_view(repeat);
+    for (int k = 0; k < 3; k++)
         def.background[k] = 0.55;
     return def;
 }
@@ -136,7 +143,7 @@ static void pictures_get_better(void **unused)
     (void)unused;
     static uint8_t whole[BYTES], now[BYTES];
     Scenery scenery = wave();
-    ViewDef def = pbsr_view(32);
+    ViewDef def = bright_view(32);
     double before = 1e9;
     add_layer(&def, PBSR_SURFACE, 0.5, 0.4, 0.8);
     add_layer(&def, PBSR_SPHERE, 0.3, 0.5, 0.3); /* persistent points, each of a separate set */
@@ -487,7 +494,7 @@ static void edges_seen(double opacity, Scenery *scenery, double seen[2])
     static const int rows[2][2] = {{44, 52}, {20, 28}}; /* from below */
     const double from[3] = {-0.3, 1.5, 3}, to[3] = {-0.3, 0.2, 0};
     for (int k = 0; k < 2; k++) {
-        ViewDef def = pbsr_view(64);
+        ViewDef def = bright_view(64);
         add_layer(&def, PBSR_SLICE_Z, 0.1, opacity, 0.5);
         def.box = k == 1;
         def.camera_auto = false;
@@ -628,7 +635,7 @@ static double dark_of_walks(int layers, double opacity, double edges, PbsrSample
 {
     static uint8_t rgb[2][BYTES];
     for (int k = 0; k < 2; k++) {
-        ViewDef def = pbsr_view(24);
+        ViewDef def = bright_view(24);
         pbsr_def(&def)->method = PBSR_CPU;
         pbsr_def(&def)->edges = edges;
         for (int i = 0; i < layers; i++) {

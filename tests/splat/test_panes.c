@@ -96,21 +96,26 @@ static void check_depth(const Through *sight, double depth, int x, int y, Tally 
     }
 }
 
+/* Of clear and of opaque fluid. */
 static void the_surface_is_the_walls_and_the_level(void **state)
 {
     (void)state;
-    Tally tally = {0};
-    SplatScene scene = tank();
-    SplatPixel *pixels = splat_drawn(&scene);
-    for (int i = 0; i < SIDE * SIDE; i++) {
-        const Through sight = sight_of(&scene, i % SIDE, i / SIDE);
-        check_depth(&sight, pixels[i].shown_depth, i % SIDE, i / SIDE, &tally);
+    static const SplatShading shadings[] = {SPLAT_WATER, SPLAT_PHONG};
+    for (int k = 0; k < 2; k++) {
+        Tally tally = {0};
+        SplatScene scene = tank();
+        splat_def(&scene.def)->shading = shadings[k];
+        SplatPixel *pixels = splat_drawn(&scene);
+        for (int i = 0; i < SIDE * SIDE; i++) {
+            const Through sight = sight_of(&scene, i % SIDE, i / SIDE);
+            check_depth(&sight, pixels[i].shown_depth, i % SIDE, i / SIDE, &tally);
+        }
+        if (tally.panes < 2000 || tally.top < 2000 || tally.rim < 200 || tally.none < 5000)
+            fail_msg("compared: %d of panes, %d of the top, %d of its rim, %d beside", tally.panes, tally.top,
+                     tally.rim, tally.none);
+        free(pixels);
+        free(scene.particles);
     }
-    if (tally.panes < 2000 || tally.top < 2000 || tally.rim < 200 || tally.none < 5000)
-        fail_msg("compared: %d of panes, %d of the top, %d of its rim, %d beside", tally.panes, tally.top,
-                 tally.rim, tally.none);
-    free(pixels);
-    free(scene.particles);
 }
 
 static double linear_of(uint8_t code)

@@ -28,7 +28,7 @@ typedef struct SplatView {
     Ellipsoids ellipsoids;
     SplatMaps maps;
     SplatThickness thickness; /* if the shading needs thickness */
-    SplatPanes panes;         /* if splat_is_clear */
+    SplatPanes panes;         /* if splat_has_panes */
     NarrowRange filter;       /* if the def has a filter */
     SplatMaps shown;          /* the shaded maps: `maps`, or the results of panes and filter */
     SplatShade shade;
@@ -118,9 +118,9 @@ static bool create_passes(SplatView *splat, const Subject *subject, Error *error
 {
     const SplatDef *own = &splat->def;
     return (!splat_level_wanted(own) || splat_level_create(&splat->level, &splat->sprites, error)) &&
-           (!splat_is_clear(own) || splat_panes_create(&splat->panes, error)) &&
+           (!splat_has_panes(own) || splat_panes_create(&splat->panes, error)) &&
            (own->filter == SPLAT_NO_FILTER ||
-            narrow_range_create(&splat->filter, splat_is_clear(own), error)) &&
+            narrow_range_create(&splat->filter, splat_has_panes(own), error)) &&
            (!splat_has_spray(own) || splat_spray_create(&splat->spray, &splat->sprites, subject, error)) &&
            (!silhouette_wanted(own) || silhouette_create(&splat->silhouette, subject, error)) &&
            create_shading(splat, subject, error);
@@ -277,7 +277,7 @@ static void splat_draw(void *state, const ParticleBuffers *particles, const Fram
             splat_thickness_draw(&splat->thickness, &splat->sprites, particles, frame);
         }
     splat->shown = splat->maps;
-    if (splat_is_clear(&splat->def))
+    if (splat_has_panes(&splat->def))
         GL_STAGE(frame->timer, STAGE_FILTER)
         {
             splat->shown = splat_panes_draw(&splat->panes, &splat->maps, &splat->sprites.tiles, frame);

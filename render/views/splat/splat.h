@@ -81,6 +81,9 @@ bool ellipsoids_crowded(const SplatDef *def);   /* true: shapes depend on neighb
 /* True for transparent fluid: water and jelly. */
 bool splat_is_clear(const SplatDef *def);
 
+/* True if the surface ends flat at the walls of the box: clear fluid, and filtered ellipsoids. */
+bool splat_has_panes(const SplatDef *def);
+
 /* True if isolated particles are drawn separately from the surface: render/views/splat/splat_private.h. */
 bool splat_has_spray(const SplatDef *def);
 

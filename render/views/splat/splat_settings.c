@@ -143,6 +143,13 @@ bool splat_is_clear(const SplatDef *def)
     return def->show == SPLAT_SHADED && def->shading != SPLAT_PHONG;
 }
 
+bool splat_has_panes(const SplatDef *def)
+{
+    const bool smooth =
+        def->show == SPLAT_SHADED && ellipsoids_stretched(def) && splat_filter(def) == SPLAT_NARROW_RANGE;
+    return splat_is_clear(def) || smooth;
+}
+
 bool splat_has_spray(const SplatDef *def)
 {
     return splat_is_clear(def) && def->drops && ellipsoids_stretched(def);

@@ -16,10 +16,10 @@ static unsigned create_program(const SplatShade *shade, const Subject *subject, 
     const bool solids = subject->world->solid_count > 0;
     static const char *const stages[] = {FLUID_TILES_VERTEX, "splat/splat_shade.frag", NULL};
     char defines[192];
-    snprintf(defines, sizeof defines, "%s%s%s#define SHOW %d\n#define SHADING %d\n",
+    snprintf(defines, sizeof defines, "%s%s%s%s#define SHOW %d\n#define SHADING %d\n",
              solids ? "#define SOLIDS 1\n" : "#define SETTLED 1\n",
-             shade->clear ? "#define FLOOR_SHADOW 1\n#define PANES 1\n" : "", more, (int)def->show,
-             (int)def->shading);
+             shade->clear ? "#define FLOOR_SHADOW 1\n" : "", splat_has_panes(def) ? "#define PANES 1\n" : "",
+             more, (int)def->show, (int)def->shading);
     return program_create("splat shade", stages, defines, error);
 }
 
