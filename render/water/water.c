@@ -169,6 +169,10 @@ typedef struct Foam {
    turbulence at free surfaces, 2001. */
 static const double AIR_FROM = 0.15, AIR_TO = 0.55, SPEED_FROM = 0.2, SPEED_TO = 0.8;
 
+/* Spacings in a box's diagonal. With fewer, neighbours in smooth flow, as in a falling dam, differ by more
+   speed, by strain and by ripples of the particles' rows: the speeds of trapped air grow. */
+static const double FINE_ENOUGH = 80, MORE_WITH = 1.7 /* power of the spacing */, COARSEST = 3.2;
+
 static bool foam_create(Foam *foam, Error *error)
 {
     static const char *const draw[] = {"water/foam.vert", "water/foam.frag", NULL};
@@ -273,14 +277,23 @@ const Effect effect_foam_solids = {.name = "foam_solids",
 typedef struct FoamInput {
     const Foam *foam;
     const ParticleBuffers *particles;
-    double scale; /* of the speeds */
+    double scale;  /* of the speeds */
+    double coarse; /* of the speeds of trapped air, too; at least 1 */
 } FoamInput;
+
+static double coarse_by(const ParticleBuffers *particles)
+{
+    const double *size = particles->box_size;
+    const double diagonal = sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]);
+    return fmin(pow(fmax(1, FINE_ENOUGH * particles->spacing / diagonal), MORE_WITH), COARSEST);
+}
 
 static void set_list(unsigned program, const void *user)
 {
     const FoamInput *in = user;
     particle_bind(program, in->particles, SCALAR_TRAPPED_AIR);
-    glUniform4f(FOAM_SPEEDS_AT, (float)(in->scale * AIR_FROM), (float)(in->scale * AIR_TO),
+    const double air = in->coarse * in->scale;
+    glUniform4f(FOAM_SPEEDS_AT, (float)(air * AIR_FROM), (float)(air * AIR_TO),
                 (float)(in->scale * SPEED_FROM), (float)(in->scale * SPEED_TO));
     glUniform1ui(FOAM_VELOCITY_STRIDE_AT, particle_bind_one(FOAM_VELOCITIES_STORAGE, &in->particles->velocity,
                                                             in->particles->count, 0));
@@ -296,7 +309,7 @@ static void list(Foam *foam, const ParticleBuffers *particles, const Frame *fram
         work_buffer_remake(&foam->listed, foam->capacity * 2 * sizeof(GLuint), "foam list");
     }
     selection_run(&foam->list, particles->count, set_list,
-                  &(FoamInput){foam, particles, 1 / frame->def->foam});
+                  &(FoamInput){foam, particles, 1 / frame->def->foam, coarse_by(particles)});
 }
 
 /* Draws nothing if the state lacks the inputs. `particles` has SCALAR_TRAPPED_AIR of fast particles. */

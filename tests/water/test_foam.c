@@ -112,6 +112,22 @@ static void foam_is_where_fluid_meets(void **state)
     }
 }
 
+/* Fast smooth flow of coarse particles, stretched and lowered as a falling dam. */
+static void smooth_flow_has_none(void **state)
+{
+    (void)state;
+    SolidsScene scene = tank("volume");
+    fill(&scene, 2, false);
+    for (size_t n = 0; n < scene.particles->count; n++) {
+        const float *at = &scene.particles->position[4 * n];
+        velocity[4 * n] = 1 + 3 * at[0], velocity[4 * n + 1] = -3 * at[1];
+    }
+    assert_true(foam_of(&scene, 0, 1).apart == 0);
+    for (size_t n = 0; n < scene.particles->count; n++)
+        velocity[4 * n + 1] = 0;
+    free(scene.particles);
+}
+
 /* Slow fluid, a draft and two dimensions: not a pixel is another. */
 static void there_is_none(void **state)
 {
@@ -167,6 +183,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(foam_is_where_fluid_meets, no_gl_errors),
+        cmocka_unit_test_teardown(smooth_flow_has_none, no_gl_errors),
         cmocka_unit_test_teardown(there_is_none, no_gl_errors),
         cmocka_unit_test_teardown(bubbles_go_by_ids, no_gl_errors),
         cmocka_unit_test_teardown(solids_hide_foam, no_gl_errors),
