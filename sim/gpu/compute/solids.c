@@ -77,16 +77,17 @@ bool compute_meshes_create(Compute *c, Error *error)
             "%d; use the backend cpu",
             count, most);
     ComputeMeshes *meshes = &c->meshes;
-    meshes->block = compute_buffer(c, "meshes", sizeof block);
-    meshes->values = compute_buffer(c, "distances from meshes", sizeof(float) * count);
-    if (!meshes->block || !meshes->values)
-        return true; /* compute_buffer has set `full` */
-    glNamedBufferSubData(meshes->block, 0, sizeof block, &block);
-    for (int k = 0; k < c->constants->solid_count; k++)
+    float *values = malloc(count * sizeof *values);
+    c->full |= !values;
+    for (int k = 0; values && k < c->constants->solid_count; k++)
         if (mesh_shape_of(c, k) && same_before(c, k) == k)
-            glNamedBufferSubData(meshes->values, (GLintptr)sizeof(float) * block.meshes[k].first,
-                                 (GLsizeiptr)(sizeof(float) * distance_count(&mesh_shape_of(c, k)->distance)),
-                                 mesh_shape_of(c, k)->distance.value);
+            memcpy(values + block.meshes[k].first, mesh_shape_of(c, k)->distance.value,
+                   sizeof(float) * distance_count(&mesh_shape_of(c, k)->distance));
+    meshes->block = compute_buffer_of(c, "meshes", sizeof block, &block);
+    meshes->values = compute_buffer_of(c, "distances from meshes", sizeof(float) * count, values);
+    free(values);
+    if (!meshes->block || !meshes->values)
+        return true; /* compute_buffer_of has set `full` */
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &meshes->texture);
     glObjectLabel(GL_TEXTURE, meshes->texture, -1, "distances from meshes");
     glTextureBuffer(meshes->texture, GL_R32F, meshes->values);

@@ -7,6 +7,7 @@
 #include <epoxy/gl.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static size_t put_define(char out[COMPUTE_DEFINES_MAX], size_t used, const char *name)
@@ -115,12 +116,13 @@ static void drag_upload(Compute *c)
     size_t all = 0, at = 0;
     for (int t = 0; t < drag->dimensions; t++)
         all += drag_entries(drag, t);
-    c->drag = compute_buffer(c, "tables of the walls' friction", all * sizeof(float));
-    for (int t = 0; t < drag->dimensions && c->drag; t++) {
-        const size_t bytes = drag_entries(drag, t) * sizeof(float);
-        glNamedBufferSubData(c->drag, (GLintptr)at, (GLsizeiptr)bytes, drag->table[t]);
-        at += bytes;
-    }
+    float *tables = malloc(all * sizeof *tables);
+    c->full |= !tables;
+    for (int t = 0; tables && t < drag->dimensions; at += drag_entries(drag, t++))
+        memcpy(tables + at, drag->table[t], drag_entries(drag, t) * sizeof *tables);
+    if (tables)
+        c->drag = compute_buffer_of(c, "tables of the walls' friction", all * sizeof *tables, tables);
+    free(tables);
 }
 
 bool compute_term_buffers(Compute *c)
