@@ -235,7 +235,8 @@ static void make_floor(Frame *frame, const double size[3], const BoxState *box, 
     double diagonal = sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]);
     float anchor[3];
     camera_anchor(size, box, anchor);
-    frame->floor.height = (float)(-0.045 * diagonal); /* a gap: the box casts a visible shadow */
+    /* A gap, so that the box casts a visible shadow; in two dimensions the box stands on the floor. */
+    frame->floor.height = (float)((frame->slab > 0 ? -0.001 : -0.045) * diagonal);
     frame->floor.center[0] = anchor[0];
     frame->floor.center[1] = anchor[2];
     frame->floor.radius = frame->def->floor ? (float)(4.0 * diagonal) : 0;
