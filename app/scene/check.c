@@ -237,17 +237,14 @@ static bool check_view_sizes(const SceneCheck *check)
 static bool check_heights(const SceneCheck *check)
 {
     const WorldDef *world = &check->scene->world;
-    for (int f = 0; f < world->fluid_count; f++)
-        for (int i = 0; i < world->fluids[f].fill_count; i++) {
-            const Fill *fill = &world->fluids[f].fills[i];
-            char path[64];
-            double at[2];
-            snprintf(path, sizeof path, "fluids[%d].fill[%d].below", f, i);
-            if (formula_given(fill->below) && seed_lacks_height(world, fill, at))
-                return FAIL(check, path, "the height \"%s\" has no value at x %g, z %g m; write one that has",
-                            fill->below, at[0], at[1]);
-        }
-    return true;
+    int fluid, index;
+    double at[2];
+    if (!seed_lacks_height(world, &fluid, &index, at))
+        return true;
+    char path[64];
+    snprintf(path, sizeof path, "fluids[%d].fill[%d].below", fluid, index);
+    return FAIL(check, path, "the height \"%s\" has no value at x %g, z %g m; write one that has",
+                world->fluids[fluid].fills[index].below, at[0], at[1]);
 }
 
 bool scene_check_count(const YamlTree *tree, const Scene *scene, Error *error)

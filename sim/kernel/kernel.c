@@ -79,19 +79,20 @@ static double quintic_derivative(double r, double h)
 }
 
 const Kernel shape_kernels[] = {
-    [KERNEL_CUBIC] = {"cubic", "cubic spline", cubic, cubic_derivative},
+    [KERNEL_CUBIC] = {"cubic", "cubic spline", cubic, cubic_derivative, 1},
     [KERNEL_WENDLAND_C2] = {"wendland_c2", "Wendland C2: no pairing, wants support 3", wendland_c2,
-                            wendland_c2_derivative},
-    [KERNEL_QUINTIC] = {"quintic", "quintic spline: smoothest, wants support 3", quintic, quintic_derivative},
+                            wendland_c2_derivative, 1},
+    [KERNEL_QUINTIC] = {"quintic", "quintic spline: smoothest, wants support 3", quintic, quintic_derivative,
+                        1},
     [SHAPE_KERNELS] = {0},
 };
 
 const Kernel density_kernels[] = {
-    {"spiky", "the kernel of the pressure force too: energy is conserved", spiky, kernel_spiky_derivative},
+    {"spiky", "the kernel of the pressure force too: energy is conserved", spiky, kernel_spiky_derivative, 1},
     {"poly6", "as in Müller 2003: pumps energy into the fluid, needs viscosity", kernel_poly6,
-     poly6_derivative},
+     poly6_derivative, 1},
     {"quintic", "quintic spline, of pressure too: a lattice hardly resists shear at support 3", quintic,
-     quintic_derivative},
+     quintic_derivative, 1.25},
     {0},
 };
 

@@ -14,6 +14,8 @@ typedef struct Kernel {
     const char *name, *help;
     double (*value)(double r, double h);
     double (*derivative)(double r, double h);
+    double stiffness; /* waves of a summed density on the lattice over spiky's: a calm step is shorter by the
+                         ratio; 1 with carried density */
 } Kernel;
 
 extern const Kernel density_kernels[]; /* spiky and poly6, ended by a NULL name */

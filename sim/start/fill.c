@@ -6,22 +6,18 @@
 #include <math.h>
 #include <string.h>
 
-enum {
-    GROUP_MAX = FLUIDS_MAX * FILLS_MAX,
-    SPREAD = 3 /* greatest difference from the number of layers by the spacing */
-};
+enum { SPREAD = 3 /* greatest difference from the number of layers by the spacing */ };
 
 /* In spacings: fills nearer than `near` touch; a face nearer than `on_face` to a layer's face is on the
    layer's face; `slack` as in sim/start/seed.c. */
 static const double near = 0.75, on_face = 1e-3, slack = 1e-6;
 
-/* Fills connected by touching. */
+/* A group of FillGroups. */
 typedef struct BlockGroup {
     int count;
     bool has_block;
     double low[3], high[3]; /* outermost faces of the group's blocks, m */
-    const Fill *fills[GROUP_MAX];
-    bool has[GROUP_MAX + 1]; /* by number_of */
+    const Fill *fills[FILLS_ALL];
 } BlockGroup;
 
 static double wall_low(const WorldDef *def, int k)
@@ -48,36 +44,56 @@ static bool fills_touch(const WorldDef *def, const Fill *a, const Fill *b)
     return true;
 }
 
-static int count_of_fills(const WorldDef *def)
+static bool blocks_overlap(const WorldDef *def, const Fill *a, const Fill *b)
 {
-    int count = 0;
+    for (int k = 0; k < def->dimensions; k++)
+        if (fmin(a->max[k], b->max[k]) - fmax(a->min[k], b->min[k]) <= on_face * def->spacing)
+            return false;
+    return true;
+}
+
+/* True if there are only blocks, without overlaps. */
+static bool is_pile(const WorldDef *def, const Fill *const *fills, int count)
+{
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j <= i; j++)
+            if (fills[i]->kind != FILL_BLOCK || (j < i && blocks_overlap(def, fills[i], fills[j])))
+                return false;
+    return true;
+}
+
+/* Makes the group that begins with fill `first`. */
+static void group_make(const WorldDef *def, FillGroups *groups, int first)
+{
+    const Fill *members[FILLS_ALL];
+    int count = 1;
+    members[0] = groups->fill[first];
+    groups->group[first] = first;
+    for (int member = 0; member < count; member++)
+        for (int other = first + 1; other < groups->count; other++)
+            if (groups->group[other] < 0 && fills_touch(def, members[member], groups->fill[other])) {
+                groups->group[other] = first;
+                members[count++] = groups->fill[other];
+            }
+    groups->pile[first] = is_pile(def, members, count);
+}
+
+void fill_groups(const WorldDef *def, FillGroups *groups)
+{
+    groups->count = 0;
     for (int f = 0; f < def->fluid_count; f++)
-        count += def->fluids[f].fill_count;
-    return count;
+        for (int i = 0; i < def->fluids[f].fill_count; i++) {
+            groups->fill[groups->count] = &def->fluids[f].fills[i];
+            groups->group[groups->count++] = -1;
+        }
+    for (int fill = 0; fill < groups->count; fill++)
+        if (groups->group[fill] < 0)
+            group_make(def, groups, fill);
 }
 
-/* The number of the fill among all fills of the def; of a fill elsewhere, the count of fills. */
-static int number_of(const WorldDef *def, const Fill *fill)
-{
-    int number = 0;
-    for (int f = 0; f < def->fluid_count; f++)
-        for (int i = 0; i < def->fluids[f].fill_count; i++, number++)
-            if (&def->fluids[f].fills[i] == fill)
-                return number;
-    return number;
-}
-
-static void group_begin(const WorldDef *def, BlockGroup *group)
-{
-    group->count = 0;
-    group->has_block = false;
-    memset(group->has, 0, (size_t)count_of_fills(def) * sizeof *group->has);
-}
-
-static void group_add(const WorldDef *def, BlockGroup *group, const Fill *fill, int number)
+static void group_add(const WorldDef *def, BlockGroup *group, const Fill *fill)
 {
     group->fills[group->count++] = fill;
-    group->has[number] = true;
     if (fill->kind != FILL_BLOCK)
         return;
     for (int k = 0; k < 3; k++) {
@@ -88,19 +104,14 @@ static void group_add(const WorldDef *def, BlockGroup *group, const Fill *fill, 
     group->has_block = true;
 }
 
-static void group_of(const WorldDef *def, const Fill *fill, BlockGroup *group)
+/* The group of a fill, in the order of numbers. */
+static void group_of(const WorldDef *def, const FillGroups *groups, int fill, BlockGroup *group)
 {
-    group_begin(def, group);
-    group_add(def, group, fill, number_of(def, fill));
-    for (int member = 0; member < group->count; member++) {
-        int number = 0;
-        for (int f = 0; f < def->fluid_count; f++)
-            for (int i = 0; i < def->fluids[f].fill_count; i++, number++) {
-                const Fill *other = &def->fluids[f].fills[i];
-                if (!group->has[number] && fills_touch(def, group->fills[member], other))
-                    group_add(def, group, other, number);
-            }
-    }
+    group->count = 0;
+    group->has_block = false;
+    for (int other = groups->group[fill]; other < groups->count; other++)
+        if (groups->group[other] == groups->group[fill])
+            group_add(def, group, groups->fill[other]);
 }
 
 /* Axis k of the box's lattice. */
@@ -241,56 +252,37 @@ static void keep_volume(const WorldDef *def, const BlockGroup *group, FillAxis a
     }
 }
 
-void fill_lattice(const WorldDef *def, const Fill *fill, FillAxis axes[3])
+void fill_lattice(const WorldDef *def, const FillGroups *groups, int fill, FillAxis axes[3])
 {
     BlockGroup group;
     double low[3] = {0}, high[3] = {0};
     assert(def->dimensions <= 3);
-    group_of(def, fill, &group);
+    group_of(def, groups, fill, &group);
     group_axes(def, &group, axes);
     keep_volume(def, &group, axes);
-    fill_bounds(fill, low, high);
+    fill_bounds(groups->fill[fill], low, high);
     for (int k = 0; k < def->dimensions; k++) {
         axes[k].begin = (long)fmax((double)axes[k].begin, floor((low[k] - axes[k].first) / axes[k].step));
         axes[k].end = (long)fmin((double)axes[k].end, ceil((high[k] - axes[k].first) / axes[k].step) + 1);
     }
 }
 
-static bool blocks_overlap(const WorldDef *def, const Fill *a, const Fill *b)
-{
-    for (int k = 0; k < def->dimensions; k++)
-        if (fmin(a->max[k], b->max[k]) - fmax(a->min[k], b->min[k]) <= on_face * def->spacing)
-            return false;
-    return true;
-}
-
-/* True if the group has only blocks, without overlaps. */
-static bool is_pile(const WorldDef *def, const BlockGroup *group)
-{
-    for (int i = 0; i < group->count; i++)
-        for (int j = 0; j <= i; j++)
-            if (group->fills[i]->kind != FILL_BLOCK ||
-                (j < i && blocks_overlap(def, group->fills[i], group->fills[j])))
-                return false;
-    return true;
-}
-
-bool fill_pile(const WorldDef *def, const Fill *fill, const FillAxis axes[3], FillPile *pile)
+bool fill_pile(const WorldDef *def, const FillGroups *groups, int fill, const FillAxis axes[3],
+               FillPile *pile)
 {
     BlockGroup group;
     double worst = 0;
-    group_of(def, fill, &group);
+    pile->count = 0;
+    if (!groups->pile[groups->group[fill]])
+        return false;
+    group_of(def, groups, fill, &group);
     for (int k = 0; k < def->dimensions && group.count > 1; k++)
         worst = fmax(worst, misfit(def, &group, k, axes[k].first, axes[k].step));
-    pile->dimensions = def->dimensions;
-    pile->count = 0;
-    if (worst <= on_face || !is_pile(def, &group))
+    if (worst <= on_face)
         return false;
-    int number = 0;
-    for (int f = 0; f < def->fluid_count; f++) /* the same order for each fill of the pile */
-        for (int i = 0; i < def->fluids[f].fill_count; i++, number++)
-            if (group.has[number])
-                pile->blocks[pile->count++] = &def->fluids[f].fills[i];
+    pile->dimensions = def->dimensions;
+    pile->count = group.count;
+    memcpy(pile->blocks, group.fills, (size_t)group.count * sizeof *group.fills);
     memcpy(pile->axes, axes, sizeof pile->axes);
     return true;
 }
@@ -344,20 +336,21 @@ static double volume_of_blocks(const WorldDef *def, const BlockGroup *group)
 static void largest_group(const WorldDef *def, BlockGroup *largest)
 {
     double most = 0;
-    int number = 0;
+    FillGroups groups;
     BlockGroup group;
-    group_begin(def, largest);
-    for (int f = 0; f < def->fluid_count; f++)
-        for (int i = 0; i < def->fluids[f].fill_count; i++, number++) {
-            if (largest->has[number])
-                continue;
-            group_of(def, &def->fluids[f].fills[i], &group);
-            const double volume = volume_of_blocks(def, &group);
-            if (volume > most) {
-                *largest = group;
-                most = volume;
-            }
+    fill_groups(def, &groups);
+    largest->count = 0;
+    largest->has_block = false;
+    for (int fill = 0; fill < groups.count; fill++) {
+        if (groups.group[fill] != fill)
+            continue;
+        group_of(def, &groups, fill, &group);
+        const double volume = volume_of_blocks(def, &group);
+        if (volume > most) {
+            *largest = group;
+            most = volume;
         }
+    }
 }
 
 /* Root of a number near 1, by Newton: the last bit of the C library's root depends on the processor. */

@@ -8,24 +8,26 @@
 /* Fraction of a spacing: a point on a face of a block belongs to the block at the low side only. */
 static const double slack = 1e-6;
 
-/* Solids of a def at the start. */
-typedef struct SolidPoses {
+/* Groups of fills and solids of a def at the start. */
+typedef struct Start {
     const WorldDef *def;
     BoxState pose[SOLIDS_MAX];
-} SolidPoses;
+    bool cut; /* a height by formula cuts a fill: then no pile decides about points */
+    FillGroups groups;
+} Start;
 
 /* True if x is at least half a spacing away from all solids, as from walls. */
-static bool is_free(const SolidPoses *stand, const double x[3])
+static bool is_free(const Start *start, const double x[3])
 {
-    const WorldDef *def = stand->def;
+    const WorldDef *def = start->def;
     for (int k = 0; k < def->solid_count; k++) {
         double d[3];
         const double reach = solid_reach(&def->solids[k]) + def->spacing;
         for (int a = 0; a < 3; a++)
-            d[a] = x[a] - stand->pose[k].position[a];
+            d[a] = x[a] - start->pose[k].position[a];
         if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] > reach * reach)
             continue;
-        quat_rotate_inverse(stand->pose[k].orientation, d, d);
+        quat_rotate_inverse(start->pose[k].orientation, d, d);
         if (solid_distance(&def->solids[k], def->dimensions, d) < (0.5 - slack) * def->spacing)
             return false;
     }
@@ -55,7 +57,6 @@ static bool has_point(const WorldDef *def, const FillPile *pile, int fluid, int 
     return owner ? owner == fill : fill_covers(def, fill, x) && !taken_before(def, fluid, index, x);
 }
 
-/* True if a height by formula cuts a fill: then no pile decides about points. */
 static bool is_cut(const WorldDef *def)
 {
     for (int f = 0; f < def->fluid_count; f++)
@@ -103,15 +104,17 @@ static size_t block_count(const WorldDef *def, const Fill *block, const FillAxis
     return count;
 }
 
-static size_t seed_fill(const SolidPoses *stand, int fluid, int index, float *position)
+/* `number`: of the fill among all fills. */
+static size_t seed_fill(const Start *start, int fluid, int index, int number, float *position)
 {
-    const WorldDef *def = stand->def;
+    const WorldDef *def = start->def;
     const Fill *fill = &def->fluids[fluid].fills[index];
     FillAxis axes[3];
     FillPile piled;
     size_t count = 0;
-    fill_lattice(def, fill, axes);
-    const FillPile *pile = !is_cut(def) && fill_pile(def, fill, axes, &piled) ? &piled : NULL;
+    fill_lattice(def, &start->groups, number, axes);
+    const FillPile *pile =
+        !start->cut && fill_pile(def, &start->groups, number, axes, &piled) ? &piled : NULL;
     if (!position && !pile && is_plain_block(def, fluid, index))
         return block_count(def, fill, axes);
     const int row = position ? 0 : 1, rows = 1 - row; /* a count goes up columns, for the cached heights of
@@ -125,7 +128,7 @@ static size_t seed_fill(const SolidPoses *stand, int fluid, int index, float *po
                     x[k] = axes[k].first + (double)i[k] * axes[k].step;
                     at[k] = axes[k].place + (double)i[k] * axes[k].advance;
                 }
-                if (!has_point(def, pile, fluid, index, x, i) || !is_free(stand, at))
+                if (!has_point(def, pile, fluid, index, x, i) || !is_free(start, at))
                     continue;
                 for (size_t k = 0; position && k < 3; k++)
                     position[3 * count + k] = (float)at[k];
@@ -145,13 +148,12 @@ static bool column_covered(const WorldDef *def, const Fill *shape, const FillAxi
     return false;
 }
 
-bool seed_lacks_height(const WorldDef *def, const Fill *fill, double at[2])
+/* True if the fill's height is not finite over a point of the fill. */
+static bool lacks_height(const WorldDef *def, const Fill *fill, const FillAxis axes[3], double at[2])
 {
     Fill shape = *fill;
-    FillAxis axes[3];
     shape.below = NULL;
     shape.heights = NULL;
-    fill_lattice(def, fill, axes);
     for (long k = axes[2].begin; k < axes[2].end; k++)
         for (long i = axes[0].begin; i < axes[0].end; i++) {
             double x[3] = {axes[0].first + (double)i * axes[0].step, 0,
@@ -165,32 +167,54 @@ bool seed_lacks_height(const WorldDef *def, const Fill *fill, double at[2])
     return false;
 }
 
-static void stand_make(const WorldDef *def, SolidPoses *stand)
+bool seed_lacks_height(const WorldDef *def, int *fluid, int *index, double at[2])
 {
-    stand->def = def;
+    FillGroups groups;
+    int number = 0;
+    fill_groups(def, &groups);
+    for (*fluid = 0; *fluid < def->fluid_count; ++*fluid)
+        for (*index = 0; *index < def->fluids[*fluid].fill_count; ++*index, number++) {
+            const Fill *fill = groups.fill[number];
+            FillAxis axes[3];
+            if (!formula_given(fill->below))
+                continue;
+            fill_lattice(def, &groups, number, axes);
+            if (lacks_height(def, fill, axes, at))
+                return true;
+        }
+    return false;
+}
+
+static void start_make(const WorldDef *def, Start *start)
+{
+    start->def = def;
+    start->cut = is_cut(def);
     for (int k = 0; k < def->solid_count; k++)
-        solid_pose(&def->solids[k], 0, &stand->pose[k]);
+        solid_pose(&def->solids[k], 0, &start->pose[k]);
+    fill_groups(def, &start->groups);
 }
 
 void seed_counts(const WorldDef *def, size_t counts[FLUIDS_MAX])
 {
-    SolidPoses stand;
-    stand_make(def, &stand);
+    Start start;
+    int number = 0;
+    start_make(def, &start);
     for (int f = 0; f < def->fluid_count; f++) {
         counts[f] = 0;
         for (int i = 0; i < def->fluids[f].fill_count; i++)
-            counts[f] += seed_fill(&stand, f, i, NULL);
+            counts[f] += seed_fill(&start, f, i, number++, NULL);
     }
 }
 
 size_t seed_lattice(const WorldDef *def, float *position, uint8_t *fluid)
 {
     size_t count = 0;
-    SolidPoses stand;
-    stand_make(def, &stand);
+    Start start;
+    int number = 0;
+    start_make(def, &start);
     for (int f = 0; f < def->fluid_count; f++)
         for (int i = 0; i < def->fluids[f].fill_count; i++) {
-            const size_t added = seed_fill(&stand, f, i, position ? position + 3 * count : NULL);
+            const size_t added = seed_fill(&start, f, i, number++, position ? position + 3 * count : NULL);
             if (fluid)
                 memset(fluid + count, f, added);
             count += added;

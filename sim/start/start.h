@@ -25,9 +25,9 @@ size_t seed_count(const WorldDef *def, double spacing);
 /* Number of particles of each fluid, at the def's spacing. */
 void seed_counts(const WorldDef *def, size_t counts[FLUIDS_MAX]);
 
-/* True if the fill's height by formula or table is not finite over a point of the fill; writes x and z (m) of
-   the point to `at`. */
-bool seed_lacks_height(const WorldDef *def, const Fill *fill, double at[2]);
+/* True if a fill's height by formula or table is not finite over a point of the fill; writes the first such
+   fill, and x and z (m) of the point to `at`. */
+bool seed_lacks_height(const WorldDef *def, int *fluid, int *index, double at[2]);
 
 /* Moves each of `count` points by up to WorldDef.jitter spacings along each axis, the same way in each run;
    walls are no limit. */
@@ -90,18 +90,32 @@ typedef struct FillAxis {
     long begin, end;
 } FillAxis;
 
+enum { FILLS_ALL = FLUIDS_MAX * FILLS_MAX };
+
+/* The groups of fills that touch, directly or through others. Fills are numbered through all fluids. */
+typedef struct FillGroups {
+    int count;                   /* of fills */
+    const Fill *fill[FILLS_ALL]; /* by number */
+    int group[FILLS_ALL];        /* of each fill: the first fill of the group */
+    bool pile[FILLS_ALL];        /* of a group's first fill: the group has only blocks, without overlaps */
+} FillGroups;
+
+/* Makes the groups of a def; the work goes by the square of the number of fills. */
+void fill_groups(const WorldDef *def, FillGroups *groups);
+
 /* Writes the lattice of a fill of the def. */
-void fill_lattice(const WorldDef *def, const Fill *fill, FillAxis axes[3]);
+void fill_lattice(const WorldDef *def, const FillGroups *groups, int fill, FillAxis axes[3]);
 
 /* Blocks that touch, with a face between two blocks within a layer. */
 typedef struct FillPile {
     int dimensions, count;
     FillAxis axes[3];
-    const Fill *blocks[FLUIDS_MAX * FILLS_MAX];
+    const Fill *blocks[FILLS_ALL];
 } FillPile;
 
 /* Writes the pile of a fill with lattice `axes`; false if the fill is in no pile. */
-bool fill_pile(const WorldDef *def, const Fill *fill, const FillAxis axes[3], FillPile *pile);
+bool fill_pile(const WorldDef *def, const FillGroups *groups, int fill, const FillAxis axes[3],
+               FillPile *pile);
 
 /* The block that owns the point of layers `index`. Blocks that share a cell own such points in proportion to
    their parts of the cell. NULL if the pile does not fill the cell: the first fill that covers the point owns

@@ -65,7 +65,7 @@ double step_viscous(const WorldDef *def, const StepFriction *friction);
    STEP_SOUND_CALM heat fluid without friction: docs/labbook/failures.md. */
 #define STEP_SOUND_STANDS 0.9
 #define STEP_SOUND_CALM   0.5
-double step_sound_calm(const WorldDef *def); /* less for the quintic kernel, whose waves are stiffer */
+double step_sound_calm(const WorldDef *def); /* by the stiffness of the kernel */
 
 /* The longest stable step for the pressure of fluid at rest, s, for a method without sound; INFINITY for
    methods with sound. A method that leaps parts particles again in each step after a fall of g dt^2. Above

@@ -85,8 +85,7 @@ double step_sound(const WorldDef *def)
 
 double step_sound_calm(const WorldDef *def)
 {
-    const bool stiff = method_kernels(def).density == density_kernel_find("quintic"); /* a summed density */
-    return stiff ? 0.8 * STEP_SOUND_CALM : STEP_SOUND_CALM;
+    return STEP_SOUND_CALM / method_kernels(def).density->stiffness;
 }
 
 double artificial_kinematic(const WorldDef *def, double alpha)

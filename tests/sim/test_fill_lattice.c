@@ -236,13 +236,16 @@ static void what_is_out_of_the_box_does_not_count(void **state)
     (void)state;
     WorldDef within = tank(3, 0.5, 2, 0.5, 0.7), beyond = within;
     FillAxis expected[3], axes[3];
+    FillGroups groups;
     Fill *fill = own_fills(&beyond.fluids[0]);
     fill->min[0] = fill->min[2] = -0.9;
     fill->max[0] = fill->max[2] = 0.7;
     fill->min[1] = -0.33;
     within.spacing = beyond.spacing = 0.043;
-    fill_lattice(&within, &within.fluids[0].fills[0], expected);
-    fill_lattice(&beyond, fill, axes);
+    fill_groups(&within, &groups);
+    fill_lattice(&within, &groups, 0, expected);
+    fill_groups(&beyond, &groups);
+    fill_lattice(&beyond, &groups, 0, axes);
     for (int k = 0; k < 3; k++) {
         assert_true(axes[k].place == expected[k].place && axes[k].advance == expected[k].advance);
         assert_true(axes[k].end == expected[k].end);
