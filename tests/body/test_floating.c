@@ -74,15 +74,20 @@ static void light_ones_hold(void **state)
             World *world = fixture_world(&def);
             WorldInfo info;
             double speed = 0; /* mean of the second second: with pbf it trembles at first, by up to 0.8 m/s */
-            fixture_step(world, 100);
+            double first = 0; /* greatest in the first second */
+            for (int i = 0; i < 100; i++) {
+                fixture_step(world, 1);
+                world_info(world, &info);
+                first = fmax(first, hypot(info.floating[0].velocity[0], info.floating[0].velocity[1]));
+            }
             for (int i = 0; i < 100; i++) {
                 fixture_step(world, 1);
                 world_info(world, &info);
                 speed += hypot(info.floating[0].velocity[0], info.floating[0].velocity[1]) / 100;
             }
             const double y = info.floating[0].position[1];
-            printf("%s, %g kg/m3: middle at %.3f m, %.3f m/s, %u times back\n", fixture_method_names[m],
-                   densities[d], y, speed, info.trouble.count);
+            printf("%s, %g kg/m3: middle at %.3f m, %.3f m/s, at first up to %.3f m/s, %u times back\n",
+                   fixture_method_names[m], densities[d], y, speed, first, info.trouble.count);
             if (!(info.trouble.count == 0 && y > 0.45 && y < 0.7 && speed < 0.4))
                 fail_msg("%s: a body of %g kg/m3 is at %.3g m with %.3g m/s; went back %u times",
                          fixture_method_names[m], densities[d], y, speed, info.trouble.count);

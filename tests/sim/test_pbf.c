@@ -312,10 +312,51 @@ static void rows_carry_the_weight(void **state)
         for (int row = 0; row < 4; row++) {
             printf("%dD, on a %s, row %d: %.3f of the weight\n", dimensions, run < 2 ? "floor" : "plate", row,
                    pressure[row] / weight[row]);
-            assert_float_equal(pressure[row], weight[row], (run < 2 ? 0.02 : 0.08) * weight[row]);
+            assert_float_equal(pressure[row], weight[row], 0.02 * weight[row]);
         }
         world_destroy(world);
     }
+}
+
+/* rms speed over sqrt(g H) of a tank with the solid, in the last two of ten seconds. */
+static double stirred_beside(SolidDef solid, double floor)
+{
+    WorldDef def = pbf_world(1, 1.2, 1);
+    def.dimensions = 2;
+    def.spacing = 0.05;
+    def.support = 3.1;
+    fixture_block(&def, 0, -0.5, floor, -0.5, 0.5, 0.8, 0.5);
+    def.solids[def.solid_count++] = solid;
+    World *world = fixture_world(&def);
+    double sum = 0;
+    fixture_step(world, 480);
+    for (int step = 0; step < 120; step++) {
+        WorldSums sums;
+        fixture_step(world, 1);
+        world_sums(world, &sums);
+        sum += 2 * sums.kinetic_energy / sums.mass / 120;
+    }
+    world_destroy(world);
+    return sqrt(sum / (9.81 * (0.8 - floor)));
+}
+
+/* Pushes by solids do no work: boundary particles mirror the way of a step. Without that the last two have
+   0.03 and 0.04, and do not calm down. What is left is above the boxes, where less than four layers lie on
+   them. */
+static void rests_beside_solids(void **state)
+{
+    (void)state;
+    fixture_needs_cpu("many steps");
+    const SolidDef plate = {.kind = SOLID_BOX, .centre = {0, 0.1, 0}, .size = {1, 0.2, 1}, .axis = {0, 1, 0}},
+                   box = {.kind = SOLID_BOX, .centre = {0, 0.4, 0}, .size = {0.3, 0.3, 1}, .axis = {0, 1, 0}};
+    SolidDef turned = box;
+    turned.axis[1] = 0, turned.axis[2] = 1, turned.angle_deg = 45;
+    const double on_plate = stirred_beside(plate, 0.2), by_box = stirred_beside(box, 0),
+                 by_turned = stirred_beside(turned, 0);
+    printf(
+        "rms speed over sqrt(g H): %.4f on a plate, %.4f around a box, %.4f around one that stands on an edge\n",
+        on_plate, by_box, by_turned);
+    assert_true(on_plate < 0.006 && by_box < 0.013 && by_turned < 0.013);
 }
 
 /* Under a lid, where gravity is upwards, fluid rests as well as on the floor. */
@@ -675,6 +716,7 @@ int main(void)
         cmocka_unit_test(tall_dam_gains_no_energy),
         cmocka_unit_test(column_stands),
         cmocka_unit_test(rows_carry_the_weight),
+        cmocka_unit_test(rests_beside_solids),
         cmocka_unit_test(rests_under_a_lid),
         cmocka_unit_test(survives_a_shaken_box),
         cmocka_unit_test(solids_keep_fluid_out),

@@ -9,7 +9,7 @@ layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pre
 layout(std430, binding = VELOCITIES_BUFFER) writeonly buffer Velocities { vec4 velocity[]; }; // w: volume
 layout(std430, binding = NEAR_BUFFER) writeonly buffer Near { vec4 near[]; };                 // x y z, k
 #ifdef SOLIDS
-#define BOUNDARY_SEEN(force, d) solid_add(force, d);
+#define BOUNDARY_SEEN(b, force, d) solid_add(force, d);
 void solid_add(vec3 force, vec3 d);
 #endif
 #include "sim/incompressible/sums.glsl"

@@ -24,13 +24,13 @@ void pair(uint j, vec3 d, float q, float term)
         twice += mirror * force;
 }
 
-#ifndef BOUNDARY_SEEN // further use of a boundary particle in a pass: F x_ib, x_ib
-#define BOUNDARY_SEEN(force, d)
+#ifndef BOUNDARY_SEEN // further use of a boundary particle in a pass: its index, F x_ib, x_ib
+#define BOUNDARY_SEEN(b, force, d)
 #endif
 
 void boundary_pair(uint j, vec3 d, float q)
 {
     vec3 force = weigh(d, q, 0.0);
     part += BOUNDARY_TIMES * force;
-    BOUNDARY_SEEN(mirror * force, mirror * d)
+    BOUNDARY_SEEN(j, mirror * force, mirror * d)
 }

@@ -10,8 +10,13 @@ layout(std430, binding = NEAR_BUFFER) writeonly buffer Near { vec4 near[]; };   
 layout(std430, binding = MOTIONS_BUFFER) writeonly buffer Motions { vec4 motion[]; };   // velocities at the step's end, volume
 layout(location = PASS_DT_AT) uniform float dt;
 #ifdef SOLIDS
-#define BOUNDARY_SEEN(force, d) solid_add(force, d);
+layout(std430, binding = FORCES_RESTS_BUFFER) readonly buffer Rests { vec4 rest[]; }; // w: index of the solid
+#define BOUNDARY_SEEN(b, force, d) \
+    solid_add(force, d);           \
+    solid_flow += dot(force, mirror * boundary_flows(b));
 void solid_add(vec3 force, vec3 d);
+vec3 boundary_flows(uint b);
+float solid_flow = 0.0; // sum F v_b . x_ib over boundary particles
 #endif
 #include "sim/incompressible/sums.glsl"
 #include "sim/incompressible/solids.glsl"
@@ -26,6 +31,11 @@ float found(float before) { return before; }
 float found(float before) { return max(before, 0.0); }
 #endif
 
+#ifdef SOLIDS
+#include "sim/solids.glsl"
+vec3 boundary_flows(uint b) { return solid_velocity_at(int(rest[boundary_state[b].y].w), boundary_position[b].xyz); }
+#endif
+
 void main()
 {
     uint i = invocation();
@@ -36,7 +46,13 @@ void main()
     float mass = fluids[FLUID_OF(i)].mass, n = kernel_scale * heights, ratio = n / rest_number_density;
     if (own[OWN_before + i] == 0.0 && dt > 0.0)
         own[OWN_before + i] = ratio;
-    float residual = ratio - 1.0 - (1.0 - PBF_SHARE(settle_rate * dt)) * found(own[OWN_before + i] - 1.0);
+    vec3 moved = vec3(own[OWN_moved + i], own[OWN_STRIDE + OWN_moved + i], own[2u * OWN_STRIDE + OWN_moved + i]);
+    float more = 0.0;
+#ifdef SOLIDS
+    more = (dt * solid_flow - dot(solid_slope, dt * velocity[i].xyz + moved)) / rest_number_density;
+    more = clamp(more, -PBF_MIRRORED, PBF_MIRRORED);
+#endif
+    float residual = ratio + more - 1.0 - (1.0 - PBF_SHARE(settle_rate * dt)) * found(own[OWN_before + i] - 1.0);
     float factor = 1.0 / (dot(whole, whole) / mass + squares + least_squares / mass);
     float k = own[OWN_term + i], change = next_term(k, residual, factor, scratch[SCRATCH_change + i]) - k;
 #ifdef SOLIDS
@@ -49,6 +65,5 @@ void main()
     float volume = 1.0 / n;
     position[i].w = unit_volume * volume;
     velocity[i].w = volume;
-    vec3 moved = vec3(own[OWN_moved + i], own[OWN_STRIDE + OWN_moved + i], own[2u * OWN_STRIDE + OWN_moved + i]);
     motion[i] = vec4(velocity[i].xyz + moved / dt, 1.0 / n);
 }

@@ -9,7 +9,7 @@ layout(location = PASS_DT_AT) uniform float dt;
 #endif
 layout(std430, binding = NEAR_BUFFER) readonly buffer Near { vec4 near[]; }; // w: growth of k, times dt^2
 #ifdef SOLIDS
-#define BOUNDARY_SEEN(force, d) solid_add(force, d);
+#define BOUNDARY_SEEN(b, force, d) solid_add(force, d);
 void solid_add(vec3 force, vec3 d);
 #endif
 #include "sim/incompressible/push.glsl"
@@ -76,10 +76,10 @@ vec3 fallen(uint i, vec3 seen)
 {
     float warm = 1.0 - min(FORGOTTEN, FORGOTTEN_RATE * (settle_rate * dt)), p = pressure_of_term * own[OWN_term + i] / warm;
     vec3 g = apparent_at(seen);
-    float layer = fluids[FLUID_OF(i)].density * spacing * length(g), part = layer > 0.0 ? clamp(PBF_WALL_FADE(p / layer), 0.0, 1.0) : 0.0;
-    vec3 way = -dt * dt * part * walls_lift(seen) * g;
+    float layer = fluids[FLUID_OF(i)].density * spacing * length(g), layers = layer > 0.0 ? p / layer : 0.0;
+    vec3 way = -dt * dt * clamp(PBF_WALL_FADE(layers), 0.0, 1.0) * walls_lift(seen) * g;
 #ifdef SOLIDS
-    vec3 held = dt * dt * solid_hold(solid_slope, solid_shares().y, g, part);
+    vec3 held = dt * dt * solid_hold(solid_slope, solid_shares().y, g, clamp(PBF_SOLID_FADE(layers), 0.0, 1.0));
     add_by_solid(i, held);
     way += held;
 #endif

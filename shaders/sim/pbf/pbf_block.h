@@ -35,6 +35,13 @@
 /* Part of the support by walls, from pressure over a layer's; at most 1, at least 0. */
 #define PBF_WALL_FADE(layers) (0.5F * (layers)-1.0F)
 
+/* The same by solids. */
+#define PBF_SOLID_FADE(layers) ((layers)-0.5F)
+
+/* Greatest change of n / n0 by mirrored ways: a way of spacings, next to a fast solid, is no slope times a
+ * way. */
+#define PBF_MIRRORED 0.1F
+
 UNIFORM_BLOCK(PbfBlock, METHOD_BLOCK)
 {
     float gradient;          /* F = -W'(r) / r over f(r / h), of the density kernel, 1/m2 */

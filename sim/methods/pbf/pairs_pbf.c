@@ -12,7 +12,8 @@ PAIR_LOOP(pbf_sums)
 PAIR_LOOP(pbf_solids)
 {
     const PbfBlock *own = pbf_constants(args->constants);
-    solid_sums(args, begin, end, own->gradient, 1 / own->pressure_of_term, args->own + SOLID, NULL);
+    solid_sums(args, begin, end, own->gradient, 1 / own->pressure_of_term, args->own + SOLID,
+               args->own[SOLID_FLOW]);
 }
 
 /* sum (dk_i + dk_j) F x_ij; `place` has dk. */

@@ -85,10 +85,21 @@ static void renew_lists(const Substep *step)
     substep_run(step, &pbf_density, step->dt);
 }
 
-/* Factor of the residual for calm fluid (sim/methods/shared/incompressible.h), in a step of at least the time
-   to settle. A column of 15 layers meets the mean tolerance even if only the lowest row was moved; then steps
-   with more and with fewer iterations alternate. */
-static const double CALM = 0.15;
+/* Error of density left by a step of calm fluid: the greater of two. A residual e is a velocity of e h /
+   dt.
+   - STILL times sqrt(g h): fluid at rest then has 0.001 of sqrt(g H). With the tolerance alone it has 0.011,
+   since steps with more and with fewer iterations alternate.
+   - CALM times the square of the Courant number: sim/methods/shared/incompressible.h. */
+static const double STILL = 0.0075, CALM = 0.15;
+
+static double residual_of(const Substep *step, double allowed)
+{
+    const double h = (double)step->constants->support_radius, courant = step->speed * step->dt / h;
+    const float *g = step->gravity;
+    const double pull = sqrt((double)(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]));
+    return pull > 0 ? fmin(allowed, fmax(STILL * step->dt * sqrt(pull / h), CALM * courant * courant))
+                    : allowed;
+}
 
 /* Iterate, with new lists where the old lists became useless, whatever their residual. A step reports the
    compression at its end; a solver in trouble reports the compression after many such steps. A tolerance of 0
@@ -97,11 +108,9 @@ static void hold_density(const Substep *step)
 {
     const double tolerance = pbf_solver(step->constants)->tolerance,
                  share = (double)PBF_SHARE(pbf_constants(step->constants)->settle_rate * (float)step->dt);
-    const double calm = share < 1 ? share * tolerance
-                                  : incompressible_rest_residual(step, step->dt, CALM, tolerance, tolerance);
     const Iteration iteration = {.passes = {&pbf_move, &pbf_density},
                                  .residual = pbf_miss,
-                                 .tolerance = calm,
+                                 .tolerance = residual_of(step, share * tolerance),
                                  .most = pbf_solver(step->constants)->most,
                                  .way = pbf_way,
                                  .way_most = WAY_MOST,

@@ -113,7 +113,7 @@ static void list_body(const CpuRange *range)
 /* Undo the fall of a step at rest in the box, as far as the walls let: the multipliers of the step before
    were found there. In the fluid a fall that all share does not matter. Nearer to a wall images push harder,
    and the pressure of a row next to a floor is 5 % too low in steps of 1/60 s at 4 cm. MOVED has the fall
-   until the first move. Not beside solids: a cube under water then has 0.92 of its lift, 1.04 without. */
+   until the first move. */
 static inline void rise_run(const CpuRange *range, const bool wide)
 {
     const CpuParticles *p = &range->cpu->now;
@@ -149,10 +149,19 @@ static void pack_place(const CpuRange *range)
         memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], p->own[INVERSE_MASS][i]}, 16);
 }
 
+/* Beside solids {v, V} too. */
+static void pack_for_sums(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    pack_place(range);
+    for (size_t i = range->begin; p->own[SOLID] && i < range->end; i++)
+        memcpy(range->cpu->motion[i], (float[]){p->vx[i], p->vy[i], p->vz[i], p->volume[i]}, 16);
+}
+
 static void pack_for_solids(const CpuRange *range)
 {
     if (range->cpu->now.own[SOLID])
-        pack_place(range);
+        pack_for_sums(range);
 }
 
 static void pack_nothing(const CpuRange *range)
@@ -166,7 +175,7 @@ static const CpuPass begins[] = {
 };
 
 #define FILL_WRITES  "viscosity tension kind inverse_mass change applied way"
-#define SOLID_WRITES "solid_slope solid_share solid_lift"
+#define SOLID_WRITES "solid_slope solid_share solid_lift solid_flow"
 
 const Pass pbf_begin = {
     .name = "begin",
@@ -325,9 +334,15 @@ static void move_body(const CpuRange *range)
     move_all(range);
 }
 
+static float within_one(float part)
+{
+    return fminf(fmaxf(part, 0), 1);
+}
+
 /* The way over dt, m, by which walls and solids hold particle i: images have their particle's multiplier,
-   without the slope that gravity gives pressure (WallLift). Under less than four layers the way fades:
-   pressure is noise there, and a dam's thin front would be held back. */
+   without the slope that gravity gives pressure (WallLift). Beside walls, under less than four layers the way
+   fades: pressure is noise there, and a dam's thin front would be held back. Beside solids such a fade stirs
+   fluid on slopes below a surface. */
 static void held_way(const CpuRange *range, const WallsFar *far, size_t i, float way[3])
 {
     const Constants *s = range->cpu->constants;
@@ -341,11 +356,11 @@ static void held_way(const CpuRange *range, const WallsFar *far, size_t i, float
     apparent_gravity_at(range->input->apparent, x, g);
     const float pressure = pbf_constants(s)->pressure_of_term * p->own[TERM][i] / warm_part(range),
                 layer = s->density[p->fluid[i]] * s->spacing * sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]),
-                part = layer > 0 ? fminf(fmaxf(PBF_WALL_FADE(pressure / layer), 0), 1) : 0;
+                layers = layer > 0 ? pressure / layer : 0, part = within_one(PBF_WALL_FADE(layers));
     if (near)
         walls_lift(&s->lift, &s->walls, x, share);
     if (p->own[SOLID]) {
-        solid_hold(p->own + SOLID, i, g, part, held);
+        solid_hold(p->own + SOLID, i, g, within_one(PBF_SOLID_FADE(layers)), held);
         add_by_solid(p, i, dt2, held);
     }
     for (int k = 0; k < 3; k++)
@@ -420,8 +435,24 @@ const Pass pbf_move = MOVE("move", moves[1], "move", "");
 
 /* --- an iteration: number density --- */
 
-/* `later`: the part of the step's first compression left to later steps; of gaps too where pressure pulls. */
-static void finish_density(const Cpu *cpu, size_t i, float later)
+/* Change of n / n0 in the step by boundary particles that mirror the way of particle i, as images in walls
+   do. In n boundary particles stand still, but push twice, as images do. Pushes are the least change of
+   velocities that keeps n (an orthogonal projection) only with the mirrored way. Else pushes do work, and
+   fluid at rest stirs itself beside solids. */
+static float mirrored(const CpuRange *range, size_t i)
+{
+    const CpuParticles *p = &range->cpu->now;
+    const float dt = range->input->dt, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
+    float *const *slope = p->own + SOLID + SOLID_SLOPE, sum = dt * p->own[SOLID_FLOW][i];
+    for (int k = 0; k < 3; k++)
+        sum -= slope[k][i] * (dt * v[k] + p->own[MOVED + k][i]);
+    const float change = sum / range->cpu->constants->rest_number_density;
+    return fminf(fmaxf(change, -PBF_MIRRORED), PBF_MIRRORED);
+}
+
+/* `later`: the part of the step's first compression left to later steps; of gaps too where pressure pulls.
+   `more`: of n / n0, beside n itself. */
+static void finish_density(const Cpu *cpu, size_t i, float later, float more)
 {
     const CpuParticles *p = &cpu->now;
     const Constants *s = cpu->constants;
@@ -432,7 +463,7 @@ static void finish_density(const Cpu *cpu, size_t i, float later)
                 ratio = p->volume[i] / s->rest_number_density;
     p->own[FACTOR][i] = 1 / (d + pbf_constants(s)->least_squares * w);
     const float before = p->own[BEFORE][i] - 1;
-    const float e = ratio - 1 - later * (s->negative_pressure ? before : fmaxf(before, 0));
+    const float e = ratio + more - 1 - later * (s->negative_pressure ? before : fmaxf(before, 0));
     p->own[COMPRESSED][i] = ratio - 1;
     p->own[RESIDUAL][i] = e;
     p->own[MISS][i] = p->own[TERM][i] > 0 || s->negative_pressure ? fabsf(e) : fmaxf(e, 0);
@@ -460,15 +491,16 @@ static void density_body(const CpuRange *range)
     const Cpu *cpu = range->cpu;
     float *before = cpu->now.own[BEFORE];
     const float later = 1 - PBF_SHARE(pbf_constants(cpu->constants)->settle_rate * range->input->dt);
+    const bool solids = cpu->now.own[SOLID];
     sum_up(range);
     for (size_t i = range->begin; i < range->end; i++) {
         if (before[i] == 0 && range->input->dt > 0)
             before[i] = cpu->now.volume[i] / cpu->constants->rest_number_density;
-        finish_density(cpu, i, later);
+        finish_density(cpu, i, later, solids ? mirrored(range, i) : 0);
     }
 }
 
-static const CpuPass density = {.loops = {{density_body, .walks = true, .pack = pack_place}},
+static const CpuPass density = {.loops = {{density_body, .walks = true, .pack = pack_for_sums}},
                                 .pair = sums_pair};
 
 #define DENSITY_WRITES "volume acceleration squares factor compressed residual miss " SOLID_WRITES
@@ -478,7 +510,7 @@ const Pass pbf_density = {
     .stage = STAGE_SOLVE,
     .cpu = &density,
     .shader = "pbf/density",
-    .reads = "position id fluid term before inverse_mass",
+    .reads = "position velocity id fluid term before inverse_mass moved",
     .writes = DENSITY_WRITES " before",
 };
 
@@ -489,21 +521,21 @@ static void settle_body(const CpuRange *range)
     const CpuParticles *p = &range->cpu->now;
     sum_up(range);
     for (size_t i = range->begin; i < range->end; i++) {
-        finish_density(range->cpu, i, 0);
+        finish_density(range->cpu, i, 0, 0);
         p->pressure[i] = pressure_of(range->cpu->constants, p, i);
         p->ax[i] = p->ay[i] = p->az[i] = 0;
     }
 }
 
 static const CpuPass settle = {
-    .loops = {{again_body, .solids = true}, {settle_body, .walks = true, .pack = pack_place}}};
+    .loops = {{again_body, .solids = true}, {settle_body, .walks = true, .pack = pack_for_sums}}};
 
 const Pass pbf_settle = {
     .name = "settle",
     .stage = STAGE_DENSITY,
     .cpu = &settle,
     .shader = "pbf/settle",
-    .reads = "position id fluid term before",
+    .reads = "position velocity id fluid term before",
     .writes = FILL_WRITES " " DENSITY_WRITES " pressure",
 };
 
@@ -613,6 +645,7 @@ const ColumnDef pbf_columns[] = {
     {"way", "", OWN(WAY), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"moved", "m", OWN(MOVED), 3, COLUMN_FLOAT, .flags = COLUMN_SORTED},
     SOLID_COLUMN_ROWS(SOLID, COLUMN_SORTED),
+    {"solid_flow", "1/s", OWN(SOLID_FLOW), 1, COLUMN_FLOAT, .needed = incompressible_has_solids},
     {"viscosity", "Pa s", .at = offsetof(ParticleColumns, viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
      .needed = many_viscous},
     {0},

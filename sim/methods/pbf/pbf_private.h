@@ -19,7 +19,7 @@
      D_i = |sum F x_ij|^2 / m_i + sum F^2 r^2 / m_j   effect of dk_i on n_i
    The whole way of a particle, over dt, changes the velocity.
    A boundary particle is an image of the particle that it meets: sim/methods/shared/incompressible.h. In n it
-   counts once. */
+   counts once at the step's begin, and mirrors the way over the step. */
 
 /* Indices of pbf's columns among a particle's own. */
 enum {
@@ -36,6 +36,7 @@ enum {
     WAY,               /* length of the way since the lists were made, in spacings */
     MOVED,             /* the way since the step's free flight, m: 3 */
     SOLID = MOVED + 3, /* SolidColumns of sim/methods/shared/incompressible.h */
+    SOLID_FLOW = SOLID + SOLID_COLUMNS, /* sum F v_b . x_ib over boundary particles, 1/s */
 };
 
 extern const ColumnDef pbf_columns[];
