@@ -80,7 +80,7 @@ static void a_step_makes_so_many_calls(void **state)
     count_step("compute, dfsph", &def, (Bounds){150, 0, 900, 10});
     def = pool_def("compute", "pbf");
     def.dt = 1.0 / 60;
-    count_step("compute, pbf", &def, (Bounds){60, 0, 340, 6});
+    count_step("compute, pbf", &def, (Bounds){62, 0, 350, 6});
     def = pool_def("fragment", "mueller");
     count_step("fragment, mueller", &def, (Bounds){44, 43, 620, 1}); /* the energy sums among them */
 }

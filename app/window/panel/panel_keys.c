@@ -318,15 +318,15 @@ static const char *const of_render[] = {"view.camera_turn", "view.carries_scene"
 /* Live keys to play with, and keys that say what the picture is. */
 static const char PLAY_GROUP[] = "Play", VIEW_GROUP[] = "View", MORE_GROUP[] = "More of the view";
 static const char *const of_play[] = {"gravity", "fluids[].viscosity"};
-static const char *const of_view[] = {"view.kind", "view.volume.look", "view.splat.shading", "view.quality",
-                                      "view.radius"};
+static const char *const of_view[] = {"view.kind", "view.quality", "view.radius"};
+static const char *const of_each_view[] = {"look", "shading"}; /* of the view's own keys */
 
-#define IS_AMONG(paths, key) is_among(paths, sizeof(paths) / sizeof *(paths), key)
+#define IS_AMONG(paths, path) is_among(paths, sizeof(paths) / sizeof *(paths), path)
 
-static bool is_among(const char *const paths[], size_t count, const Key *key)
+static bool is_among(const char *const paths[], size_t count, const char *path)
 {
     for (size_t i = 0; i < count; i++)
-        if (strcmp(paths[i], key->path) == 0)
+        if (strcmp(paths[i], path) == 0)
             return true;
     return false;
 }
@@ -378,12 +378,15 @@ static void group_of(const Key *key, char name[NAME_LENGTH])
     const size_t length = strcspn(key->path, ".["), own = part_of_view(key, &part);
     const bool of_a_view =
         strncmp(key->path, "view.", strlen("view.")) == 0 && (own == 0 || is_a_view(part, own));
-    if (IS_AMONG(of_render, key))
+    if (IS_AMONG(of_render, key->path))
         snprintf(name, NAME_LENGTH, "%s", RENDER_GROUP);
-    else if (IS_AMONG(of_play, key))
+    else if (IS_AMONG(of_play, key->path))
         snprintf(name, NAME_LENGTH, "%s", PLAY_GROUP);
     else if (of_a_view)
-        snprintf(name, NAME_LENGTH, "%s", IS_AMONG(of_view, key) ? VIEW_GROUP : MORE_GROUP);
+        snprintf(name, NAME_LENGTH, "%s",
+                 IS_AMONG(of_view, key->path) || (own > 0 && IS_AMONG(of_each_view, part + own + 1))
+                     ? VIEW_GROUP
+                     : MORE_GROUP);
     else if (!key->path[length])
         snprintf(name, NAME_LENGTH, "World");
     else if (own > 0 && !is_a_view(part, own))
