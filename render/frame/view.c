@@ -142,7 +142,7 @@ const Key view_frame_keys[] = {
     TEXT("view.title", L, VIEW_TITLE_SIZE, AT(title), "none", "words over the picture"),
     BOOLEAN("view.carries_scene", L, AT(carries_scene), "PNG files carry the scene as text: slosh FILE.png opens it again"),
     CHOICE_OF("view.quality", L | KEY_INDEX, view_quality_names, AT(quality), "draft: fewer cells, pixels and samples, so that a picture is there in time; good: as all keys say; best: more; what is not at its default stays; auto: best in files, draft for clear fluid and filtered splats in the window on a software driver, else good"),
-    NUMBER("view.resolution", L, "", 0.05, 2, AT(resolution), "pixels drawn for a pixel shown, each way: below 1 is faster, and the box's edges, words and the legend keep all of them; 2: four samples of each pixel, for smooth outlines, fewer where more than 16 million would be drawn; where it is 1, best has 2 and a draft of clear fluid 0.5"),
+    NUMBER("view.resolution", L, "", 0.05, 2, AT(resolution), "pixels drawn for a pixel shown, each way: below 1 is faster, and the box's edges, words and the legend keep all of them; 2: four samples of each pixel, for smooth outlines, fewer where more than 16 million would be drawn; where it is 1, best has 2, of filtered splats 1.5, and a draft of clear fluid 0.5"),
     FILE_TEXT("view.file", 0, AT(file), "none", "of an entry of views: it shows a recorded run (.h5part, found from the scene's folder) at the scene's time"),
     SETTINGS("view.set", KEY_POINTER, VIEW_SET_SIZE, AT(set), "none", "of an entry of views: it shows the scene with these settings, {solver.step.dt: 0.001} and so on, simulated beside it"),
     KEYS_END,
@@ -376,10 +376,10 @@ ViewDef view_at_quality(const ViewDef *def, bool moving)
     const ViewKind *kind = view_find(def->kind);
     const ViewQuality quality = view_quality(def, moving);
     drawn.drawn_quality = quality;
-    if (quality == VIEW_BEST && drawn.resolution == 1 && !(kind && kind->samples))
-        drawn.resolution = FINEST_RESOLUTION;
     if (quality != VIEW_GOOD && kind && kind->quality)
         kind->quality(&drawn, quality);
+    if (quality == VIEW_BEST && drawn.resolution == 1 && !(kind && kind->samples))
+        drawn.resolution = FINEST_RESOLUTION;
     return drawn;
 }
 

@@ -27,8 +27,8 @@ static void a_draft_has_fewer_of_all(void **state)
     const ViewDef splats = drawn_at(VIEW_DRAFT, "splat"), whole = drawn_at(VIEW_BEST, "splat");
     const ViewDef usual = drawn_at(VIEW_GOOD, "splat"), averaged = drawn_at(VIEW_BEST, "pbsr");
     assert_true(!splat_def(&splats)->antialias && splat_def(&usual)->antialias);
-    assert_true(!splat_def(&whole)->antialias && whole.resolution == 2); /* samples in its place */
-    assert_true(averaged.resolution == 1);                               /* has samples of its own */
+    assert_true(!splat_def(&whole)->antialias && whole.resolution == 1.5); /* samples in its place */
+    assert_true(averaged.resolution == 1);                                 /* has samples of its own */
     ViewDef filtered = view_def_default();
     text_set(filtered.kind, "splat");
     splat_def(&filtered)->filter = SPLAT_NARROW_RANGE;

@@ -354,12 +354,14 @@ static bool splat_is_expensive(const ViewDef *def)
     return splat_filter(splat_def(def)) != SPLAT_NO_FILTER;
 }
 
-/* A filtered surface loses little by fewer pixels. */
+/* A filtered surface loses little by fewer pixels; with twice the pixels the filter takes six times as long.
+ */
 static void splat_quality(ViewDef *def, ViewQuality quality)
 {
-    if (quality == VIEW_DRAFT && splat_is_expensive(def) && def->resolution == 1)
-        def->resolution = 0.5;
-    const bool sampled = def->resolution > 1; /* the samples of each pixel smooth the outlines */
+    if (splat_is_expensive(def) && def->resolution == 1)
+        def->resolution = quality == VIEW_DRAFT ? 0.5 : 1.5;
+    /* In a best picture the samples of each pixel smooth the outlines. */
+    const bool sampled = quality == VIEW_BEST && def->resolution >= 1;
     if ((quality == VIEW_DRAFT || sampled) && splat_def(def)->antialias == splat_usual.antialias)
         splat_def(def)->antialias = false;
 }
