@@ -89,10 +89,9 @@ static bool stands_still(Backdrop *backdrop, const Frame *frame)
     return same;
 }
 
-static void draw_unshaded(const Backdrop *backdrop, const Frame *frame, GLuint framebuffer)
+/* Into the bound framebuffer, of the target's size. */
+static void draw_unshaded(const Backdrop *backdrop)
 {
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glViewport(0, 0, frame->width, frame->height);
     glUseProgram(backdrop->program);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -110,7 +109,9 @@ static void keep(Backdrop *backdrop, const Frame *frame)
         glObjectLabel(GL_FRAMEBUFFER, backdrop->cached_framebuffer, -1, "kept backdrop");
         backdrop->cached_target = frame->target->number;
     }
-    draw_unshaded(backdrop, frame, backdrop->cached_framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, backdrop->cached_framebuffer);
+    draw_unshaded(backdrop);
+    glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
     backdrop->cached = true;
 }
 
@@ -119,7 +120,7 @@ static void copy_kept(Backdrop *backdrop, const Frame *frame)
 {
     if (!stands_still(backdrop, frame)) {
         backdrop->cached = false;
-        draw_unshaded(backdrop, frame, frame->target->framebuffer);
+        draw_unshaded(backdrop);
         return;
     }
     if (!backdrop->cached)
@@ -132,8 +133,6 @@ static void shade_floor(const Backdrop *backdrop, const Frame *frame)
 {
     if (frame->floor.radius <= 0 || frame->camera.eye[1] <= frame->floor.height)
         return;
-    glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
-    glViewport(0, 0, frame->width, frame->height);
     glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor.light);
     glUseProgram(backdrop->shadow_program);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
@@ -321,7 +320,6 @@ static void shade_floor_map(const Shadow *shadow, const Frame *frame)
     glBindFramebuffer(GL_FRAMEBUFFER, shadow->rough.framebuffer);
     glViewport(0, 0, FLOOR_MAP_TEXELS, FLOOR_MAP_TEXELS);
     glUseProgram(shadow->solid_map ? shadow->solid_floor_program : shadow->floor_program);
-    glUniform1f(CLEAR_AT, frame->fluid.clear);
     glBindVertexArray(shadow->vertex_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glBindFramebuffer(GL_FRAMEBUFFER, shadow->floor.framebuffer);

@@ -8,7 +8,6 @@
 #include "common/solid_light.glsl"
 #endif
 
-layout(location = CLEAR_AT) uniform float clear; // fraction of light that the fluid lets through
 layout(location = 0) out float light_left;
 
 const int taps = 8;
@@ -26,7 +25,7 @@ void main()
     vec2 way = vec2(cos(turn), sin(turn));
     for (int i = 0; i < taps; i++) { // sunflower pattern
         vec2 tap = at + sqrt((16.0 * float(i) + own + 0.5) / (16.0 * float(taps))) * wide * way;
-        float share = (1.0 - clear) * min(1.0, 1e6 * textureLod(shadow_map, tap, 0.0).x);
+        float share = (1.0 - fluid_clear) * min(1.0, 1e6 * textureLod(shadow_map, tap, 0.0).x);
 #ifdef SOLIDS
         share = max(share, 1.0 - textureLod(solid_map, vec3(tap, 0.0), 0.0));
 #endif

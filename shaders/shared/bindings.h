@@ -68,7 +68,6 @@
 #define CURVE_RANGE_AT      74
 #define ID_STRIDE_AT        75
 #define EDGES_BEHIND_AT     76
-#define CLEAR_AT            77
 #define CAUSTIC_STEP_AT     78
 #define CAUSTIC_WIDTH_AT    79
 #define CAUSTIC_HIGHEST_AT  80
