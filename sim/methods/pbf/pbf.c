@@ -85,19 +85,20 @@ static void renew_lists(const Substep *step)
     substep_run(step, &pbf_density, step->dt);
 }
 
-/* Error of density left by a step of calm fluid: the greater of two. A residual e is a velocity of e h /
-   dt.
-   - STILL times sqrt(g h): fluid at rest then has 0.001 of sqrt(g H). With the tolerance alone it has 0.011,
-   since steps with more and with fewer iterations alternate.
-   - CALM times the square of the Courant number: sim/methods/shared/incompressible.h. */
-static const double STILL = 0.0075, CALM = 0.15;
+/* Error of density left by a step of calm fluid. A residual e is a velocity of e h / dt.
+   - CALM times the square of the Courant number, as in sim/methods/shared/incompressible.h, or of fall, dt
+     sqrt(g / h), if that is greater.
+   - At most STILL times fall, a velocity of STILL sqrt(g h): fluid at rest then has 0.002 of sqrt(g H). With
+   the tolerance alone it has 0.011, since steps with more and with fewer iterations alternate. */
+static const double STILL = 0.02, CALM = 0.15;
 
 static double residual_of(const Substep *step, double allowed)
 {
     const double h = (double)step->constants->support_radius, courant = step->speed * step->dt / h;
     const float *g = step->gravity;
     const double pull = sqrt((double)(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]));
-    return pull > 0 ? fmin(allowed, fmax(STILL * step->dt * sqrt(pull / h), CALM * courant * courant))
+    const double fall = step->dt * sqrt(pull / h);
+    return pull > 0 ? fmin(allowed, fmax(fmin(STILL, CALM * fall) * fall, CALM * courant * courant))
                     : allowed;
 }
 
