@@ -173,7 +173,9 @@ static void emit_range(const PanelKey *row, PanelEvents *events, const double *e
 static void draw_range(Ui *ui, const PanelKey *row, const UiField *field, PanelEvents *events)
 {
     const Key *key = row->key;
-    const double *now = (const double *)((const char *)row->base + key->offset), *seen = row->range_now;
+    static const double unknown[2] = {0, 1};
+    const double *now = (const double *)((const char *)row->base + key->offset),
+                 *seen = row->range_now ? row->range_now : unknown;
     const bool *is = (const bool *)row->base + key->aux;
     bool automatic = is[0], symmetric = is[1];
     char id[64], id_symmetric[64];

@@ -116,7 +116,7 @@ static void drag_upload(Compute *c)
     size_t all = 0, at = 0;
     for (int t = 0; t < drag->dimensions; t++)
         all += drag_entries(drag, t);
-    float *tables = malloc(all * sizeof *tables);
+    float *tables = malloc((all + 1) * sizeof *tables);
     c->full |= !tables;
     for (int t = 0; tables && t < drag->dimensions; at += drag_entries(drag, t++))
         memcpy(tables + at, drag->table[t], drag_entries(drag, t) * sizeof *tables);
