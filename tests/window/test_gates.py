@@ -9,7 +9,7 @@ from test_window import STILL, Window
 
 FLOW = STILL.replace('0.5]}}]}', '0.5]}}], emit: [{disk: {centre: [0, 0.9, 0], direction: [0, -1, 0], radius: 0.2}, speed: 1}]}') \
     + 'drains: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.05, 0.5]}, shut: true}]\n'
-VIEW, EMITTER, DRAIN = (60, 286), (169, 350), (169, 372)  # a heading, and switches once it is closed
+PLAY, EMITTER, DRAIN = (60, 286), (169, 328), (169, 350)  # a heading, and switches once it is closed
 
 
 class Gates(Window):
@@ -23,7 +23,7 @@ class Gates(Window):
         self.open('still.yaml', '--record', 'a.rec', size=(760, 600))
         self.keys('p')
         self.drawn(5)
-        self.click(VIEW)
+        self.click(PLAY)
         for switch in EMITTER, DRAIN, EMITTER, EMITTER:
             self.click(switch)
         self.keys('ctrl+shift+s')

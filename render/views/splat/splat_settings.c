@@ -160,9 +160,11 @@ bool silhouette_wanted(const SplatDef *def)
     return def->antialias && (def->show == SPLAT_SHADED || def->show == SPLAT_CULLED);
 }
 
+/* Discs of spheres reach beyond the panes of an opaque fluid. */
 bool silhouette_by_discs(const SplatDef *def)
 {
-    return silhouette_wanted(def) && !splat_level_wanted(def);
+    const bool flat = splat_has_panes(def) && !splat_is_clear(def);
+    return silhouette_wanted(def) && !splat_level_wanted(def) && !flat;
 }
 
 const char *ellipsoids_defines(const SplatDef *def)
