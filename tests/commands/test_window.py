@@ -905,10 +905,9 @@ class Panel(Window):
         self.assertEqual((out['panel'], out['paused'], out['camera_auto']), (False, False, False))
 
     def test_a_slider_changes_the_fluid(self):
-        self.open('--record', 'a.rec', size=(760, 620))
+        self.open('--record', 'a.rec')
         self.pause()
-        self.drag(1, [(60, 568), (60, 568)])  # the heading World, closed at first
-        self.drag(1, [(248, 590), (255, 590), (262, 590)])
+        self.drag(1, [(248, 307), (255, 307), (262, 307)])  # gravity, below the heading Play
         self.keys('space')
         self.drawn(5)
         self.quit()
