@@ -54,8 +54,9 @@ vec2 floor_brightness(vec3 origin, vec3 ray)
 // Linear light.
 vec3 environment_light(vec3 origin, vec3 ray)
 {
+    vec3 light = sky(ray * inversesqrt(dot(ray, ray)));
+    if (ray.y >= 0.0 || origin.y <= floor_height || floor_radius <= 0.0)
+        return light;
     vec2 ground = floor_brightness(origin, ray);
-    bool above = ray.y < 0.0 && origin.y > floor_height;
-    float floor_share = above && floor_radius > 0.0 ? ground.y : 0.0;
-    return mix(sky(ray * inversesqrt(dot(ray, ray))), background * ground.x, floor_share);
+    return mix(light, background * ground.x, ground.y);
 }

@@ -138,19 +138,23 @@ vec3 shaded(Surface s)
 
 #ifdef PANES
 #ifdef SOLIDS
+// 1 if the ray of a coarse texel, as in thickness.frag, ends as far away; else next to nothing.
+float as_far(vec2 texel, vec2 size, float end, float leave)
+{
+    ivec2 pixel = clamp(ivec2(texel / size * picture_size), ivec2(0), ivec2(picture_size) - 1);
+    float there = near_plane / max(texelFetch(behind_depth, pixel, 0).x, 1e-30);
+    return abs(min(there, leave) - end) < 2.0 * particle_spacing ? 1.0 : 1e-3;
+}
+
 // Means of own and full thickness of the four coarse texels around, for a ray that ends at `end`. Texels whose ray ends elsewhere, at
 // or beside a solid, count next to nothing. After: Kopf, Cohen, Lischinski and Uyttendaele, Joint bilateral upsampling, 2007.
 vec2 thickness_beside_solids(float end, float leave)
 {
-    const ivec2 corners[4] = ivec2[](ivec2(0, 1), ivec2(1, 1), ivec2(1, 0), ivec2(0, 0)); // in textureGather's order
     vec2 size = vec2(textureSize(thickness_map, 0)), texel = gl_FragCoord.xy * pixel_size * size - 0.5, corner = floor(texel), part = texel - corner;
     vec4 own = textureGather(thickness_map, (corner + 1.0) / size), full = textureGather(filled_map, (corner + 1.0) / size);
     vec4 weight = vec4(1.0 - part.x, part.x, part.x, 1.0 - part.x) * vec4(part.y, part.y, 1.0 - part.y, 1.0 - part.y);
-    for (int i = 0; i < 4; i++) {
-        ivec2 pixel = ivec2((corner + vec2(corners[i]) + 0.5) / size * picture_size); // as in thickness.frag
-        float there = near_plane / max(texelFetch(behind_depth, clamp(pixel, ivec2(0), ivec2(picture_size) - 1), 0).x, 1e-30);
-        weight[i] *= abs(min(there, leave) - end) < 2.0 * particle_spacing ? 1.0 : 1e-3;
-    }
+    weight *= vec4(as_far(corner + vec2(0.5, 1.5), size, end, leave), as_far(corner + vec2(1.5, 1.5), size, end, leave),
+                   as_far(corner + vec2(1.5, 0.5), size, end, leave), as_far(corner + vec2(0.5, 0.5), size, end, leave));
     return vec2(dot(weight, own), dot(weight, full));
 }
 #endif
