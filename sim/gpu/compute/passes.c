@@ -144,8 +144,7 @@ unsigned compute_buffer(Compute *c, const char *label, size_t bytes)
     if (!name)
         return 0;
     glClearNamedBufferData(name, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
-    glFinish(); /* NVIDIA's 580: the clear overtakes a later glNamedBufferSubData, and a barrier does not help
-                 */
+    glFinish(); /* NVIDIA 580: no barrier keeps a clear before a later glNamedBufferSubData */
     return name;
 }
 
