@@ -100,6 +100,11 @@ class Validate(ValidateTest):
         keys = {(c['case'], c['metric'], c['method'], c['backend']) for c in cases}
         self.assertEqual(len(keys), len(cases))
 
+    def test_particles_choose_the_spacing_of_a_case(self):
+        done = self.run_it('free_fall', '--method', 'mueller', '--particles', '500', '--quiet', '--json', 'out.json')
+        self.assertEqual(done.stderr, '')
+        self.assertEqual([c['particles'] for c in self.figures()], [486, 486])  # of the lattice nearest to 500
+
     def test_what_does_not_depend_on_plots_is_written(self):
         os.mkdir(self.path('bin'))
         self.write('bin/gnuplot', '#!/bin/sh\nexit 3\n')

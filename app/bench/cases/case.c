@@ -154,7 +154,8 @@ bool case_scene(const CaseSetup *setup, Scene *scene, Error *error)
     SceneSettings all = {.particles = setup->settings->particles};
     snprintf(spacing, sizeof spacing, "particles.spacing=%.9g", setup->of->spacing[setup->level]);
     snprintf(method, sizeof method, "solver.method=%.32s", setup->method);
-    bool ok = scene_settings_add(&all, NULL, spacing, error) && scene_settings_add(&all, NULL, method, error);
+    bool ok = (all.particles > 0 || scene_settings_add(&all, NULL, spacing, error)) &&
+              scene_settings_add(&all, NULL, method, error);
     if (ok && setup->of->setting)
         ok = scene_settings_add(&all, NULL, setup->of->setting, error);
     const CaseMethod *with = case_method(setup->of, setup->method);

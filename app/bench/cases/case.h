@@ -170,7 +170,7 @@ typedef struct CaseResult {
     char failure[256];   /* why there are no figures; "" on success */
 } CaseResult;
 
-/* Loads the case's scene with the level's spacing, the method and the settings. */
+/* Loads the case's scene with the spacing of the level, or of --particles, the method and the settings. */
 bool case_scene(const CaseSetup *setup, Scene *scene, Error *error);
 
 /* Runs a case. `progress` goes from `done` to `done + part`. A broken simulation is a result too, with
