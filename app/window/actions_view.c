@@ -280,7 +280,7 @@ const UserAction action_plane_down = {
 
 const UserAction action_plane_x = {
     .name = "plane-x",
-    .help = "set the shown plane across the box's x",
+    .help = "set the shown plane across the box's x, through the middle of the fluid",
     .keys = {ON(X)},
     .needs = ACTION_OF_STATE,
     .by = VIEW_STEP_X,
@@ -289,7 +289,7 @@ const UserAction action_plane_x = {
 
 const UserAction action_plane_y = {
     .name = "plane-y",
-    .help = "set the shown plane across the box's y: level",
+    .help = "set the shown plane level, through the middle of the fluid",
     .keys = {ON(Y)},
     .needs = ACTION_OF_STATE,
     .by = VIEW_STEP_Y,
@@ -298,7 +298,7 @@ const UserAction action_plane_y = {
 
 const UserAction action_plane_z = {
     .name = "plane-z",
-    .help = "set the shown plane across the box's z",
+    .help = "set the shown plane across the box's z, through the middle of the fluid",
     .keys = {ON(Z)},
     .needs = ACTION_OF_STATE,
     .by = VIEW_STEP_Z,

@@ -121,6 +121,26 @@ unsigned particle_bind_one(unsigned binding, const ParticleAttribute *attribute,
     return attribute->buffer ? (unsigned)(attribute->stride / 4) : 0;
 }
 
+void particles_middle(const ParticleBuffers *particles, double middle[3])
+{
+    enum { PART = 4096 }; /* particles per read */
+    const ParticleAttribute *from = &particles->position;
+    const size_t count = from->buffer ? particles->count : 0;
+    float at[4 * PART];
+    double sum[3] = {0};
+    for (size_t first = 0, part; first < count; first += part) {
+        part = count - first < PART ? count - first : PART;
+        glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+        glGetNamedBufferSubData(from->buffer, (GLintptr)(from->offset + first * from->stride),
+                                (GLsizeiptr)(part * from->stride), at);
+        for (size_t i = 0; i < part; i++)
+            for (int k = 0; k < 3; k++)
+                sum[k] += (double)at[4 * i + k];
+    }
+    for (int k = 0; k < 3; k++)
+        middle[k] = count > 0 ? sum[k] / (double)count : k == 1 ? 0.5 * particles->box_size[1] : 0;
+}
+
 void particle_bind_ids(unsigned program, const ParticleBuffers *particles)
 {
     const ParticleAttribute *ids = &particles->scalar[SCALAR_ID];

@@ -130,6 +130,10 @@ const ParticleAttribute *particle_color_attribute(const ParticleBuffers *particl
 unsigned particle_bind_one(unsigned binding, const ParticleAttribute *attribute, size_t count,
                            unsigned stand_in);
 
+/* The mean of all positions, m, in the box's frame; the middle of the box without particles. Reads all
+   positions back and waits for the GPU: for keys, not for each picture. */
+void particles_middle(const ParticleBuffers *particles, double middle[3]);
+
 /* Binds the ids, as the numbers of the scalar `id`, for shaders/common/particle_ids.glsl. */
 void particle_bind_ids(unsigned program, const ParticleBuffers *particles);
 

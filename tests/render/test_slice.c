@@ -333,7 +333,8 @@ static void what_is_no_number_stays_where_it_is(void **state)
 
 enum { WIDE = 96, HIGH = 72 };
 
-static void picture_of(SliceScene *scene, const ViewDef *def, uint8_t rgb[3 * WIDE * HIGH])
+static void picture_with(SliceScene *scene, const ViewDef *def, const WorldDef *world,
+                         uint8_t rgb[3 * WIDE * HIGH])
 {
     Error error = {0};
     ParticleBuffers buffers;
@@ -341,13 +342,18 @@ static void picture_of(SliceScene *scene, const ViewDef *def, uint8_t rgb[3 * WI
     ViewDef fixed = *def;
     fixed.range_auto = false;
     fixed.range[0] = 0, fixed.range[1] = 3;
-    Renderer *renderer = renderer_create(&fixed, NULL, WIDE, HIGH, &error);
+    Renderer *renderer = renderer_create(&fixed, world, WIDE, HIGH, &error);
     if (!renderer)
         fail_msg("%s", error.message);
     renderer_draw(renderer, &buffers, NULL);
     renderer_read(renderer, rgb);
     renderer_destroy(renderer);
     upload_destroy(upload);
+}
+
+static void picture_of(SliceScene *scene, const ViewDef *def, uint8_t rgb[3 * WIDE * HIGH])
+{
+    picture_with(scene, def, NULL, rgb);
 }
 
 static ViewDef flat_view(void)
@@ -388,6 +394,52 @@ static void a_pixel_has_the_colour_of_its_value(void **state)
             shown++;
         }
     assert_true(shown > 500);
+    free(sums);
+    free_scene(&scene);
+}
+
+static double encoded(double linear)
+{
+    return 255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055);
+}
+
+/* Between two fluids are mixtures of their colours, by the sums of each: here the share of the first, as a
+ * scalar. */
+static void fluids_have_their_colours(void **state)
+{
+    (void)state;
+    uint8_t rgb[3 * WIDE * HIGH];
+    SliceScene scene = wild_scene(0.08, (double[3]){0, 0, 0}, (double[3]){0, 0, 1});
+    WorldDef world = world_def_default();
+    ViewDef def = flat_view();
+    int pure[2] = {0}, mixed = 0;
+    def.color_by = SCALAR_FLUID;
+    def.legend = false;
+    slice_def(&def)->kernel = scene.job.kernel;
+    world.fluid_count = 2;
+    world.fluids[0] = (FluidDef){.name = "red", .density = 1000, .color = {1, 0, 0}};
+    world.fluids[1] = (FluidDef){.name = "green", .density = 1000, .color = {0, 1, 0}};
+    for (size_t i = 0; i < scene.particles->count; i++) {
+        scene.particles->fluid[i] = scene.particles->position[4 * i] > 0.3F;
+        scene.particles->speed[i] = (float)!scene.particles->fluid[i];
+    }
+    picture_with(&scene, &def, &world, rgb);
+    scene.job.samples[0] = WIDE, scene.job.samples[1] = WIDE / 2;
+    float *sums = sums_of(&scene);
+    for (int at = 0; at < WIDE * WIDE / 2; at++) {
+        const int line = (HIGH + WIDE / 2) / 2 - 1 - at / WIDE;
+        const uint8_t *pixel = rgb + 3 * (line * WIDE + at % WIDE);
+        const double first = plane_value(&sums[4 * at], false);
+        if (!(sums[4 * at + 1] > 0.3F))
+            continue;
+        if (fabs(pixel[0] - encoded(first)) > 2 || fabs(pixel[1] - encoded(1 - first)) > 2 || pixel[2] > 1)
+            fail_msg("pixel %d: %d %d %d, share of red %g", at, pixel[0], pixel[1], pixel[2], first);
+        pure[0] += first > 0.999;
+        pure[1] += first < 0.001;
+        mixed += first > 0.2 && first < 0.8;
+    }
+    printf("%d pixels of red, %d of green, %d between\n", pure[0], pure[1], mixed);
+    assert_true(pure[0] > 500 && pure[1] > 300 && mixed > 50);
     free(sums);
     free_scene(&scene);
 }
@@ -785,6 +837,7 @@ int main(void)
         cmocka_unit_test_teardown(a_lattice_keeps_constants_and_slopes, no_gl_errors),
         cmocka_unit_test_teardown(what_is_no_number_stays_where_it_is, no_gl_errors),
         cmocka_unit_test_teardown(a_pixel_has_the_colour_of_its_value, no_gl_errors),
+        cmocka_unit_test_teardown(fluids_have_their_colours, no_gl_errors),
         cmocka_unit_test_teardown(opacity_goes_by_a_scalar, no_gl_errors),
         cmocka_unit_test_teardown(it_plays_in_pictures, no_gl_errors),
         cmocka_unit_test_teardown(half_of_the_particles_is_left, no_gl_errors),

@@ -136,8 +136,19 @@ static void keys_become_settings(void **state)
         assert_int_equal(slice_step(&view, &particles, turns[i].step, settings), 2);
         assert_setting(&settings[1], "view.slice.normal", s * turns[i].x, s * turns[i].y, c);
     }
+    /* across an axis through the middle of the fluid, or of the box without any */
+    const float at[2][4] = {{-0.7F, 0.1F, 0.1F}, {-0.3F, 0.3F, 0.2F}};
     for (int axis = 0; axis < 3; axis++) {
+        particles.position = (ParticleAttribute){0};
+        slice_step(&view, &particles, (ViewStep)(VIEW_STEP_X + axis), settings);
+        assert_setting(&settings[0], "view.slice.point", 0, 0.5, 0);
+        particles.count = 2;
+        particles.position.stride = sizeof at[0];
+        glCreateBuffers(1, &particles.position.buffer);
+        glNamedBufferStorage(particles.position.buffer, sizeof at, at, 0);
         assert_int_equal(slice_step(&view, &particles, (ViewStep)(VIEW_STEP_X + axis), settings), 2);
+        assert_setting(&settings[0], "view.slice.point", -0.5, 0.2, 0.15);
+        glDeleteBuffers(1, &particles.position.buffer);
         assert_setting(&settings[1], "view.slice.normal", axis == 0, axis == 1, axis == 2);
     }
     slice_def(&view)->point[2] = 3; /* beside the box: a step brings it back */
@@ -153,5 +164,5 @@ int main(void)
         cmocka_unit_test(drags_become_settings),
         cmocka_unit_test(keys_become_settings),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }

@@ -20,6 +20,9 @@ static const char *const show_names[] = {[SLICE_PLANE] = "plane", [SLICE_FLAT] =
 static const char *const particles_names[] = {
     [SLICE_ALONE] = "none", [SLICE_BEHIND] = "behind", [SLICE_BOTH] = "both", NULL};
 
+/* The amount of fluid, sum V W. */
+static const char FIELD[] = "field";
+
 const SliceDef slice_usual = {.normal = {0, 0, 1}, .samples = 512, .cut = 0.25, .opacity = 1};
 
 #define AT(field) offsetof(SliceDef, field)
@@ -49,9 +52,11 @@ const ViewGrade slice_grades[] = {
 
 typedef struct SliceView {
     PlaneSum sum, veil; /* sums of the scalar shown; sums of the opacity's scalar, if different */
+    SliceTints tints;   /* with `sum`, the sums of the fluids' colours */
     unsigned program, vertex_array;
     ColorTable colors;
     bool has_scalar; /* the particles have the scalar shown */
+    bool by_fluid;   /* shows the fluids' colours */
     SliceProbe probe;
     View *balls; /* draws particles beside the plane; NULL: no particles shown */
     ViewDef balls_def;
@@ -64,6 +69,7 @@ static void destroy(void *state)
     SliceView *view = state;
     plane_sum_destroy(&view->sum);
     plane_sum_destroy(&view->veil);
+    slice_tints_destroy(&view->tints);
     plane_probe_destroy(&view->probe.probe);
     glDeleteProgram(view->program);
     glDeleteVertexArrays(1, &view->vertex_array);
@@ -169,6 +175,15 @@ static void set_filter(unsigned texture, GLint filter)
     glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, filter);
 }
 
+static void set_filters(const SliceView *view, GLint filter)
+{
+    set_filter(view->sum.sums, filter);
+    if (view->by_fluid) {
+        set_filter(view->tints.green.sums, filter);
+        set_filter(view->tints.blue.sums, filter);
+    }
+}
+
 /* A flat slice has an empty background. */
 static void clear_flat(const Frame *frame)
 {
@@ -195,7 +210,7 @@ static void begin_flat(const SliceView *view, const PlaneJob *job, const Frame *
     flat_part(job, frame, part);
     glDisable(GL_DEPTH_TEST);
     glViewport(part[0], part[1], part[2], part[3]);
-    set_filter(view->sum.sums, GL_NEAREST);
+    set_filters(view, GL_NEAREST);
 }
 
 static void begin_in_space(const SliceView *view, const Frame *frame)
@@ -204,7 +219,7 @@ static void begin_in_space(const SliceView *view, const Frame *frame)
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_TRUE);
     glViewport(0, 0, frame->width, frame->height);
-    set_filter(view->sum.sums, GL_LINEAR);
+    set_filters(view, GL_LINEAR);
 }
 
 /* The plane hides objects behind, and no pixel is drawn twice. */
@@ -215,9 +230,11 @@ static void begin_blending(void)
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 }
 
-/* If colours are the fluids', or the particles lack the scalar, the slice shows the amount of fluid. */
+/* If colours are the only fluid's, or the particles lack the scalar, the slice shows the amount of fluid. */
 static unsigned what_is_shown(const SliceView *view, const Frame *frame)
 {
+    if (view->by_fluid)
+        return SLICE_TINTS;
     if (!view->has_scalar)
         return SLICE_FIELD;
     return slice_def(frame->def)->raw ? SLICE_RAW : SLICE_MEAN;
@@ -270,6 +287,8 @@ static void show_sums(SliceView *view, const PlaneJob *job, const PlaneSum *veil
     glUniform1ui(ISOLINES_AT, (GLuint)def->isolines);
     glUniform1f(OPACITY_AT, flat ? 1 : (float)def->opacity);
     glBindTextureUnit(SUMS_UNIT, view->sum.sums);
+    glBindTextureUnit(GREEN_UNIT, view->by_fluid ? view->tints.green.sums : view->sum.sums);
+    glBindTextureUnit(BLUE_UNIT, view->by_fluid ? view->tints.blue.sums : view->sum.sums);
     color_table_bind(&view->colors, &frame->def->color_curve);
     glBindVertexArray(view->vertex_array);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
@@ -372,7 +391,7 @@ static void remember(SliceView *view, const PlaneJob *job, const ParticleBuffers
     probe->flat = def->show == SLICE_FLAT;
     probe->shown = shown;
     probe->cut = def->cut;
-    probe->name = frame->colors.name;
+    probe->name = view->by_fluid ? FIELD : frame->colors.name;
     probe->unit = frame->colors.unit;
     flat_part(job, frame, probe->part);
 }
@@ -397,6 +416,13 @@ static int probe(void *state, const double (*at)[3], int count, ViewProbe *out)
     return slice_probe_read(&view->probe, &view->sum, at, count, out);
 }
 
+static bool sum_up(SliceView *view, const PlaneJob *job, const ParticleBuffers *particles, const Frame *frame,
+                   Error *error)
+{
+    return view->by_fluid ? slice_tints_run(&view->tints, &view->sum, job, particles, error)
+                          : plane_sum_run(&view->sum, job, particles, error);
+}
+
 static void draw(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
     SliceView *view = state;
@@ -406,10 +432,11 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     draw_balls(view, frame);
     view->has_scalar =
         view_color_by(frame->def) != SCALAR_FLUID && particles->scalar[view_color_by(frame->def)].buffer != 0;
+    view->by_fluid = slice_tints_shown(particles, frame);
     const PlaneSum *veils = NULL;
     GL_STAGE(frame->timer, STAGE_BLEND)
     {
-        made = make_job(particles, frame, &job) && plane_sum_run(&view->sum, &job, particles, &error);
+        made = make_job(particles, frame, &job) && sum_up(view, &job, particles, frame, &error);
         if (made && frame->def->opacity.by != 0)
             veils = sum_veil(view, &job, particles, frame);
     }
@@ -430,11 +457,11 @@ static void show(const ViewDef *def, Frame *frame)
 {
     const SliceDef *own = slice_def(def);
     frame->flat = own->show == SLICE_FLAT;
-    if (!frame->colors.by_fluid)
+    if (!frame->colors.by_fluid || (view_color_by(def) == SCALAR_FLUID && frame->world->fluid_count > 1))
         return;
     frame->colors.by_fluid =
         own->particles != SLICE_ALONE && !frame->flat; /* balls have the fluids' colours */
-    frame->colors.name = "field";
+    frame->colors.name = FIELD;
     frame->colors.unit = "";
     frame->colors.range[0] = 0;
     frame->colors.range[1] = 1.25;

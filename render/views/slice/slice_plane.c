@@ -207,8 +207,8 @@ int slice_step(const ViewDef *view, const ParticleBuffers *particles, ViewStep s
         return turn(def, point, plane.up, STEP_TURN, settings);
     case VIEW_STEP_DOWN:
         return turn(def, point, plane.up, -STEP_TURN, settings);
-    default:
-        keep_in_box(particles->box_size, axis, point);
+    default: /* a level plane at the floor would show nothing */
+        particles_middle(particles, point);
         return set_plane(def, point, axis, settings);
     }
 }
@@ -298,7 +298,7 @@ static void answer(const SliceProbe *probe, int index, ViewProbe *out)
     else if (plane_empty(sums) || field < probes->cut)
         out->what = VIEW_PROBE_EMPTY;
     else {
-        out->value = probes->shown == SLICE_FIELD ? field : plane_value(sums, probes->shown == SLICE_RAW);
+        out->value = probes->shown >= SLICE_FIELD ? field : plane_value(sums, probes->shown == SLICE_RAW);
         out->what = isnan(out->value) ? VIEW_PROBE_NAN : VIEW_PROBE_VALUE;
     }
 }

@@ -23,6 +23,23 @@ int slice_drag(const ViewDef *view, const ParticleBuffers *particles, int index,
 int slice_step(const ViewDef *view, const ParticleBuffers *particles, ViewStep step,
                ViewSetting settings[VIEW_SETTINGS_MAX]);
 
+/* The colours of a slice through several fluids: sums of V W times red, green and blue, each over sum V W. */
+
+/* Zero-initialise. */
+typedef struct SliceTints {
+    unsigned program, buffer; /* reds, greens and blues of the particles, floats */
+    size_t capacity;          /* of each, particles */
+    PlaneSum green, blue;
+} SliceTints;
+
+/* True if a picture is coloured by several fluids. */
+bool slice_tints_shown(const ParticleBuffers *particles, const Frame *frame);
+
+/* As plane_sum_run, three times. The frame's uniforms must be bound. */
+bool slice_tints_run(SliceTints *tints, PlaneSum *red, const PlaneJob *job, const ParticleBuffers *particles,
+                     Error *error);
+void slice_tints_destroy(SliceTints *tints);
+
 /* Values that the last picture of the view slice shows at positions. */
 
 /* The state of the sums. */
