@@ -57,7 +57,7 @@ bool stands_before(vec3 place)
 // solids far in front that hide the path at an outline, as the part of a duck above the water.
 float met_on(vec3 from, vec3 way)
 {
-    const int count = 8, halvings = 5;
+    const int count = 8, halvings = 6;
     float met = 2.0, behind = 0.0;
     for (int i = 1; i <= count && met > 1.0; i++) {
         float share = float(i) / float(count);
@@ -68,6 +68,6 @@ float met_on(vec3 from, vec3 way)
         float share = met - 0.5 / float(count << i), before = behind_shown(from + share * way);
         met = before > 0.0 ? share : met, behind = before > 0.0 ? before : behind;
     }
-    return behind < 0.5 * particle_spacing + length(way) / float(count) ? met : 2.0;
+    return behind < 0.25 * particle_spacing + 4.0 * length(way) / float(count << halvings) ? met : 2.0;
 }
 #endif

@@ -83,7 +83,9 @@ void show(Ray ray)
 void main()
 {
     Ray ray = eye_ray();
-    if (ray.begin >= ray.end)
+    // Between glass and a solid on it is no water, but the field goes on there from beside the solid.
+    float seam = ray.begin <= ray.wall ? 0.1 * particle_spacing / ray.slant : 0.0;
+    if (ray.begin + seam >= ray.end)
         discard;
     show(ray);
 }

@@ -3,14 +3,16 @@
 #define SLOSH_VOLUME_BINDINGS_H
 
 /* Uniform blocks */
-#define VOLUME_BLOCK  2
-#define RAYCAST_BLOCK 3
+#define VOLUME_BLOCK       2
+#define RAYCAST_BLOCK      3
+#define SOLID_SHARES_BLOCK 4
 
 /* Storage buffers */
 #define FACES_STORAGE         4
 #define FACES_COMMAND_STORAGE 5
 #define FLUID_NUMBERS_STORAGE 6
 #define BOUNDS_STORAGE        7
+#define SOLID_SHARES_STORAGE  4 /* before the faces */
 /* lists of cells, bound in order by a single call */
 #define LIST_STARTS_STORAGE    8
 #define LIST_PARTICLES_STORAGE 9

@@ -6,6 +6,7 @@
 #include "shaders/shared/plane_block.h"
 #include "shaders/shared/solid_block.h"
 #include "shaders/volume/raycast_block.h"
+#include "shaders/volume/solid_shares_block.h"
 #include "shaders/volume/volume_block.h"
 #include "sim/gpu/gl.h"
 
@@ -39,6 +40,7 @@ typedef struct Block {
 #define RAYCAST(member) MEMBER(RaycastBlock, member)
 #define VOLUME(member)  MEMBER(VolumeBlock, member)
 #define SOLID(member)   MEMBER(SolidBlock, member)
+#define SHARES(member)  MEMBER(SolidSharesBlock, member)
 #define SLICE(member)   MEMBER(PlaneBlock, member)
 
 static const Block blocks[] = {
@@ -54,6 +56,10 @@ static const Block blocks[] = {
           FRAME(glass), FRAME(fineness), FRAME(shadow_spread), FRAME(light_in_world)),
     BLOCK("shared/solid_block.h", SolidBlock, SOLID(solids[0].to_eye), SOLID(solids[0].to_light),
           SOLID(solids[0].color), SOLID(solids[1].to_eye), SOLID(solids[15].color)),
+    BLOCK("volume/solid_shares_block.h", SolidSharesBlock, SHARES(shares[0].from_cells),
+          SHARES(shares[0].nodes), SHARES(shares[0].first), SHARES(shares[1].from_cells),
+          SHARES(shares[15].first), SHARES(shared_first), SHARES(share_count), SHARES(shared_cells),
+          SHARES(least_free)),
     BLOCK("volume/raycast_block.h", RaycastBlock, RAYCAST(eye_to_volume), RAYCAST(volume_to_eye),
           RAYCAST(volume_cells), RAYCAST(cell_size), RAYCAST(brick_count), RAYCAST(brick_side),
           RAYCAST(wall_low), RAYCAST(brick_least), RAYCAST(wall_high), RAYCAST(surface_level),

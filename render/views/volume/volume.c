@@ -149,9 +149,10 @@ static void volume_slice_draw(VolumeSlice *slice, const double box_size[3], cons
 
 typedef struct VolumeView {
     Voxelizer *voxelizer;
-    VolumeWalls walls; /* for looks that are surfaces */
-    VolumeSlice slice; /* if shown alone, all below is empty */
-    Raycast *raycast;  /* NULL: the view shows the slice */
+    VolumeWalls walls;  /* for looks that are surfaces */
+    SolidShares shares; /* likewise, with solids */
+    VolumeSlice slice;  /* if shown alone, all below is empty */
+    Raycast *raycast;   /* NULL: the view shows the slice */
     ShadowCaster casting;
     Voxelizer *opacity;         /* carries the scalar of opacity if not the colours' scalar; else NULL */
     SolidVoxels *solids;        /* NULL: no solids, or solids drawn as surfaces */
@@ -162,6 +163,7 @@ static void destroy(void *state)
 {
     VolumeView *view = state;
     volume_walls_destroy(&view->walls);
+    solid_shares_destroy(&view->shares);
     volume_slice_destroy(&view->slice);
     raycast_destroy(view->raycast);
     solid_voxels_destroy(view->solids);
@@ -215,7 +217,8 @@ static bool create_raycast(VolumeView *view, const Subject *subject, Error *erro
     view->raycast = raycast_create(subject, view->voxelizer, error);
     const bool surface = volume_def(subject->def)->raycast.look != RAYCAST_TRANSLUCENT;
     return view->raycast && shadow_caster_create(&view->casting, NULL, error) &&
-           (!surface || volume_walls_create(&view->walls, error));
+           (!surface || volume_walls_create(&view->walls, error)) &&
+           (!surface || subject->world->solid_count == 0 || solid_shares_create(&view->shares, error));
 }
 
 /* The volume carries fluids if the picture shows the colours of several fluids, and a scalar if the
@@ -290,6 +293,9 @@ static bool make_volume(VolumeView *view, const ParticleBuffers *particles, cons
     if (view->opacity && !voxelizer_run(view->opacity, volume_def(def), particles,
                                         scalar_of_curve(&def->opacity), &opacity, &error))
         return false;
+    if (view->shares.program)
+        solid_shares_place(&view->shares, particles, frame->world);
+    voxelizer_set_solids(view->voxelizer, view->shares.program ? &view->shares : NULL);
     if (!voxelizer_run(view->voxelizer, volume_def(def), &carrying, view_color_by(def), volume, &error))
         return false;
     if (view->walls.program)

@@ -49,6 +49,43 @@ bool volume_grid_for(const VolumeDef *def, const ParticleBuffers *particles, Vol
 void volume_grid_crop(const VolumeGrid *whole, const double low[3], const double high[3], double support,
                       VolumeGrid *out);
 
+/* Solids in a volume: the field extends to a solid's surface and a little into it. No particles are in a
+   solid, so that without shares the field would end before the surface. The field is
+   divided by the part of the kernel that solids leave free, as in Shepard's interpolation (1968).
+
+   Shares are summed once a shape, in the solid's frame; moving solids only change places. */
+
+typedef struct SolidShare {
+    SolidDef shape;
+    size_t first; /* first value in the list; 0: none */
+    int nodes[3];
+    double low[3], apart; /* m: the first node, and the distance between nodes */
+    /* of the newest state: */
+    float from_box[16];  /* from the box's frame, m, to nodes */
+    double bounds[2][3]; /* in the box's frame, m */
+} SolidShare;
+
+typedef struct SolidShares {
+    unsigned program, block, buffer; /* buffer: 0 until a volume on the GPU needs the values */
+    int count;
+    bool flat;
+    double support; /* m */
+    SolidShare part[SOLIDS_MAX];
+    float *value; /* the part of the kernel around a node that the solid takes */
+    size_t values;
+} SolidShares;
+
+bool solid_shares_create(SolidShares *shares, Error *error);
+void solid_shares_destroy(SolidShares *shares); /* a zeroed struct is allowed */
+
+/* Places the solids as in the particles' state. */
+void solid_shares_place(SolidShares *shares, const ParticleBuffers *particles, const WorldDef *world);
+
+/* Divides sums on the CPU, or a volume's textures. `scalar`: may be NULL. Nothing for a field that is summed
+   at the sample. */
+void solid_shares_divide(const SolidShares *shares, const VolumeGrid *grid, float *field, float *scalar);
+void solid_shares_apply(SolidShares *shares, const Volume *volume);
+
 /* Makes volumes by one method; each new volume replaces the last. */
 typedef struct Voxelizer Voxelizer;
 
@@ -61,6 +98,9 @@ void voxelizer_destroy(Voxelizer *voxelizer); /* NULL is allowed */
    fluid's bounds. Thus missing resources are found before a picture is due. Returns false if a resource is
    missing. */
 bool voxelizer_prepare(Voxelizer *voxelizer, const VolumeDef *def, const VolumeGrid *whole, Error *error);
+
+/* Solids of later runs: in place, and valid until then. NULL: none. */
+void voxelizer_set_solids(Voxelizer *voxelizer, SolidShares *shares);
 
 /* Makes the volume of the particles. The scalar carried is `carried`, or 0 if the particles lack the
    scalar. The voxelizer owns the textures in `out`, which are valid until the next run. Particles outside
@@ -89,6 +129,7 @@ typedef struct VoxelizeJob {
     double low[3], high[3]; /* bounds of the particles that count, m */
     double radius;          /* h, cells */
     double amplitude;       /* W(0), 1/m3 (1/m2 in the plane): a particle's field at its centre per volume */
+    SolidShares *shares;    /* NULL: no solids */
     const Volume *volume;   /* result; textures hold the last run's values, or 0 everywhere */
 } VoxelizeJob;
 
@@ -101,6 +142,7 @@ typedef struct VoxelizeMethod {
     /* Allocates the memory that such volumes need beside the textures. NULL: none. */
     bool (*reserve)(void *state, const VolumeGrid *grid, Error *error);
     bool (*run)(void *state, const VoxelizeJob *job, Error *error);
+    bool divides; /* by the solids' shares; else this is done to the textures after each run */
 } VoxelizeMethod;
 
 extern const VoxelizeMethod voxelize_points;  /* geometry, layers, planes */

@@ -197,6 +197,8 @@ static bool slabs_run(void *state, const VoxelizeJob *job, Error *error)
     if (!reserve(own, job->particles->count, grid, error) || !read_particles(own, job, &particles, error) ||
         !field_sum(&particles, grid, parallel_processors(), &own->slabs, own->field, own->weighted, error))
         return false;
+    if (job->shares)
+        solid_shares_divide(job->shares, grid, own->field, own->weighted);
     const SlabRegion now = region_of(&particles, grid);
     send_changes(own, job->volume, &now);
     return true;
@@ -207,4 +209,5 @@ const VoxelizeMethod voxelize_slabs = {
     .destroy = slabs_destroy,
     .reserve = reserve_cells,
     .run = slabs_run,
+    .divides = true,
 };

@@ -195,6 +195,7 @@ struct Voxelizer {
     void *state;          /* state of the method */
     GLuint block, bounds; /* buffers */
     GLuint find_bounds;   /* program, made when fluid bounds are first wanted */
+    SolidShares *shares;
     Volume volume;
 };
 
@@ -403,6 +404,7 @@ static VoxelizeJob make_job(const Voxelizer *voxelizer, const ParticleBuffers *p
                        .carried = carried,
                        .scalar = voxelizer->scalar,
                        .radius = h / whole->cell,
+                       .shares = voxelizer->shares,
                        .amplitude = is_flat(particles) ? 4 / (PI * h * h) : kernel_poly6(0, h),
                        .volume = &voxelizer->volume};
     for (int k = 0; k < 3; k++) {
@@ -425,7 +427,16 @@ static bool make_volume(Voxelizer *voxelizer, const VolumeDef *def, const Voxeli
         return false;
     voxelizer->volume.grid = grid;
     voxelizer->volume.support = job->particles->support_radius;
-    return voxelizer->by->run(voxelizer->state, job, error);
+    if (!voxelizer->by->run(voxelizer->state, job, error))
+        return false;
+    if (job->shares && !voxelizer->by->divides)
+        solid_shares_apply(job->shares, &voxelizer->volume);
+    return true;
+}
+
+void voxelizer_set_solids(Voxelizer *voxelizer, SolidShares *shares)
+{
+    voxelizer->shares = shares;
 }
 
 bool voxelizer_run(Voxelizer *voxelizer, const VolumeDef *def, const ParticleBuffers *particles,
