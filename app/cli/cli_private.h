@@ -133,7 +133,8 @@ void completion_print_zsh(FILE *file);
    by side, each with its views in a column. */
 
 typedef struct RenderOptions {
-    bool interpolate; /* pictures between two states of a fixed step */
+    bool interpolate; /* also a single picture is between two states of a fixed step */
+    bool steps;       /* several pictures too show states */
     double fps;       /* more than 0 */
     int frames;       /* at least 1; 0: not given */
 } RenderOptions;
@@ -142,6 +143,17 @@ static inline const RenderOptions *options_of_render(const Args *args)
 {
     return args->own;
 }
+
+/* True if pictures are between two states, at their own times; false: of the first state at or after.
+   A film with pictures at uneven times judders. */
+static inline bool render_between(const Args *args, bool several)
+{
+    const RenderOptions *own = options_of_render(args);
+    return own->interpolate || (several && !own->steps);
+}
+
+/* Refuses --interpolate with --steps. */
+bool render_options_agree(const Args *args, Error *error);
 
 typedef struct RenderPlan {
     const Args *args;
@@ -178,6 +190,7 @@ typedef struct RenderFigures {
     double step_seconds[PANELS_MAX];     /* wall time of each world's steps */
     bool differ[PANELS_MAX][PANELS_MAX]; /* [a][b], b < a: the panels differed in some picture */
     double apart;                        /* greatest time between the states of a picture, s */
+    double late;                         /* greatest delay of a state after the time of its picture, s */
     bool stopped;                        /* by a signal */
 } RenderFigures;
 

@@ -28,6 +28,7 @@ typedef struct Render {
     PanelPictures panel_pictures;
     Pictures *pictures;
     Schedule schedule;
+    bool between; /* render_between */
     Progress progress;
     RenderFigures figures;
     EmbeddedScene carried; /* in each PNG file */
@@ -49,8 +50,7 @@ static Schedule make_schedule(const Args *args, PicturesKind kind)
 static double shown_at(const Render *render, int panel, double time)
 {
     const int leader = render->plan.leader_of[panel];
-    const bool follows = leader >= 0 && leader != render->plan.world_of[panel] &&
-                         !options_of_render(render->args)->interpolate;
+    const bool follows = leader >= 0 && leader != render->plan.world_of[panel] && !render->between;
     return follows && session_reached(&render->sessions[leader], time)
                ? render->sessions[leader].run.info.time
                : time;
@@ -114,14 +114,13 @@ static bool open_shoot(Render *render, Error *error)
     RenderPlan *plan = &render->plan;
     for (int i = 0; i < plan->panel_count; i++) {
         const int world = plan->world_of[i], file = plan->file_of[i];
-        const bool follows = plan->leader_of[i] >= 0 && !options_of_render(render->args)->interpolate;
+        const bool follows = plan->leader_of[i] >= 0 && !render->between;
         panels[i] = (PicturePanel){.session = world >= 0 ? &render->sessions[world] : NULL,
                                    .recorded = file >= 0 ? &plan->files[file] : NULL,
                                    .scene = follows ? &render->sessions[plan->leader_of[i]] : NULL,
                                    .view = plan->views[i]};
     }
-    return panel_pictures_open(&render->panel_pictures, panels, plan->panel_count,
-                               options_of_render(render->args)->interpolate, render->args->width,
+    return panel_pictures_open(&render->panel_pictures, panels, plan->panel_count, render->args->width,
                                render->args->height, error);
 }
 
@@ -143,16 +142,15 @@ static bool blame(const Session *session, Error *error)
     return error_set(error, "%s%s", session->prefix, reason.message);
 }
 
-/* Advances a world one step towards the picture at `time`. */
+/* Advances a world one step towards the picture at `time`. In mode cfl states fall on that time. */
 static bool step(Render *render, int world, double time, Error *error)
 {
     Session *session = &render->sessions[world];
+    const bool between = render->between && session->run.scene.world.step_mode == STEP_FIXED;
     if (!panel_pictures_watch(&render->panel_pictures, session, time, error))
         return blame(session, error);
-    const bool last = session->run.info.time + 1.001 * session->run.scene.world.dt >= time;
     const double began = wall_ms();
-    if ((panel_pictures_interpolates(&render->panel_pictures, session) && last &&
-         !panel_pictures_keep(&render->panel_pictures, session, error)) ||
+    if ((between && !panel_pictures_keep(&render->panel_pictures, session, time, error)) ||
         !session_step(session, error))
         return blame(session, error);
     render->figures.step_seconds[world] += 1e-3 * (wall_ms() - began);
@@ -205,7 +203,7 @@ static bool take_picture(Render *render, double time, Error *error)
         if (!panel_pictures_set_title(panel_pictures, i, &titles[i], error))
             return false;
     }
-    render->text.time = render->sessions[0].run.info.time;
+    render->text.time = panel_pictures->sources[0].state.time;
     if (!panel_pictures_draw(panel_pictures, error) ||
         !pictures_add(render->pictures, &panel_pictures->image, error))
         return false;
@@ -214,12 +212,13 @@ static bool take_picture(Render *render, double time, Error *error)
             render->figures.differ[i][k] |= !panel_pictures_same(panel_pictures, i, k, titles);
     render->figures.pictures++;
     render->figures.apart = fmax(render->figures.apart, panel_pictures_spread(panel_pictures));
+    render->figures.late = fmax(render->figures.late, panel_pictures_late(panel_pictures, time));
     progress_update(&render->progress, fraction_done(render));
     return true;
 }
 
-/* Takes each picture from the first state of each world at or after its time. After a signal, takes one more
-   picture only if there is none yet. */
+/* Takes each picture once each world has a state at or after its time. After a signal, takes one more picture
+   only if there is none yet. */
 static bool take_pictures(Render *render, Error *error)
 {
     const Schedule *schedule = &render->schedule;
@@ -275,7 +274,7 @@ static void tell_times(const Render *render)
         if (options_of_render(render->args)->interpolate && session->run.scene.world.step_mode == STEP_CFL)
             fprintf(stderr, "%s--interpolate has no effect: in mode cfl states fall on the pictures' times\n",
                     session->prefix);
-        if (render->schedule.count > 1 && !options_of_render(render->args)->interpolate)
+        if (render->schedule.count > 1 && !render->between)
             session_warn_uneven(session, "pictures", render->schedule.interval,
                                 render->schedule.interval * (render->schedule.count - 1));
     }
@@ -319,6 +318,7 @@ static int shoot_all(Render *render, PicturesKind kind, Error *error)
 {
     bool taken = false;
     render->schedule = make_schedule(render->args, kind);
+    render->between = render_between(render->args, kind != PICTURES_PNG);
     carry(render, kind);
     tell_times(render);
     if (open_shoot(render, error)) {
@@ -342,7 +342,7 @@ static int shoot_all(Render *render, PicturesKind kind, Error *error)
 
 static bool understand(const Args *args, PicturesKind *kind, Error *error)
 {
-    if (!pictures_kind(args->output, kind, error))
+    if (!pictures_kind(args->output, kind, error) || !render_options_agree(args, error))
         return false;
     return *kind != PICTURES_PNG || options_of_render(args)->frames == 0 ||
            error_set(error,
@@ -426,7 +426,9 @@ static const OptionRow options[] = {
     ROW_OUTPUT("OUT", .files = files_pictures, .help = "the file or folder to write"),
     ROW_TIME(5, "simulated seconds (5; of a recorded run or session all of it, and the one picture of its end)"),
     {"--interpolate", NULL, OPTION_FLAG, OWN(RenderOptions, interpolate),
-     .help = "with a fixed step: pictures of the states between steps, at their own times"},
+     .help = "one picture too is at its very time, between two steps of a fixed length; videos and folders are by themselves"},
+    {"--steps", NULL, OPTION_FLAG, OWN(RenderOptions, steps),
+     .help = "pictures of a video or folder show steps, the first at or after each one's time, and nothing in between"},
     ROW_FRAMES(RenderOptions),
     {"--fps", "N", OPTION_NUMBER, OWN(RenderOptions, fps), .initial = 30, .min = 0.001, .max = 1000, .help = "frames in a second (30)"},
     ROW_PICTURE_SIZE,

@@ -9,6 +9,14 @@
 #include <math.h>
 #include <string.h>
 
+bool render_options_agree(const Args *args, Error *error)
+{
+    const RenderOptions *own = options_of_render(args);
+    return !own->interpolate || !own->steps ||
+           error_set(error,
+                     "--interpolate shows what is between steps, and --steps the steps; leave one out");
+}
+
 /* True if a key belongs to the view: a single world then serves all values. */
 static bool of_view(const char *key)
 {
@@ -310,6 +318,7 @@ static Summary summary_of(const Session sessions[], const RenderFigures *figures
                      .product = "pictures",
                      .products = figures->pictures,
                      .renderer = headless_renderer(sessions[0].context),
+                     .late = figures->late,
                      .step_seconds = figures->step_seconds[world],
                      .stopped = figures->stopped};
 }
@@ -372,8 +381,9 @@ static void tell_apart(const RenderPlan *plan, const RenderFigures *figures)
     if (!figures->stopped && figures->apart > 1e-6 * plan->scenes[0].world.dt)
         fprintf(stderr,
                 "panels show their first states at or after a picture's time, up to %.3g s apart; "
-                "--interpolate shows all at that very time\n",
-                figures->apart);
+                "%s shows all at that very time\n",
+                figures->apart,
+                options_of_render(plan->args)->steps ? "leaving --steps out" : "--interpolate");
 }
 
 static void tell_world(const Session *session, double step_seconds, const Args *args)
@@ -459,11 +469,11 @@ static json_t *several_json(const RenderPlan *plan, const Session sessions[],
     json_t *panels = json_array();
     for (int i = 0; i < plan->panel_count; i++)
         json_array_append_new(panels, panel_json(plan, sessions, panel_pictures, figures, i));
-    return json_pack("{s:s, s:s, s:s, s:I, s:f, s:f, s:b, s:s, s:o}", "command", "render", "scene",
+    return json_pack("{s:s, s:s, s:s, s:I, s:f, s:f, s:f, s:b, s:s, s:o}", "command", "render", "scene",
                      plan->scenes[0].path, "output", args->output, "pictures", (json_int_t)figures->pictures,
-                     "simulated_seconds", sessions[0].run.info.time, "wall_seconds",
-                     1e-3 * (wall_ms() - sessions[0].began_ms), "stopped", figures->stopped, "renderer",
-                     headless_renderer(sessions[0].context), "panels", panels);
+                     "picture_late_seconds", figures->late, "simulated_seconds", sessions[0].run.info.time,
+                     "wall_seconds", 1e-3 * (wall_ms() - sessions[0].began_ms), "stopped", figures->stopped,
+                     "renderer", headless_renderer(sessions[0].context), "panels", panels);
 }
 
 bool render_write_json(const RenderPlan *plan, const Session sessions[], const PanelPictures *panel_pictures,

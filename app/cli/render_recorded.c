@@ -419,6 +419,7 @@ typedef struct SessionRender {
     Progress progress;
     double until;         /* time of the last picture, s; INFINITY: end of the session */
     size_t taken, wanted; /* pictures; wanted 0: up to the end */
+    double late;          /* greatest delay of a state after the time of its picture, s */
     bool ended;           /* the session is over */
     uint64_t hash;        /* world_hash at the end */
 } SessionRender;
@@ -434,9 +435,8 @@ static bool check_session_options(const Args *args, Error *error)
         return refuse_option(args, "--device", "all that moved the box is in the session", error);
     if (args->sweep_count > 0)
         return refuse_option(args, "--compare", "the session has one setting", error);
-    if (options_of_render(args)->interpolate)
-        return refuse_option(args, "--interpolate", "pictures are of the states that the session had", error);
-    return recording_play_allows(args->scenes[0], &args->settings, error);
+    return render_options_agree(args, error) &&
+           recording_play_allows(args->scenes[0], &args->settings, error);
 }
 
 static bool choose_session_times(SessionRender *render, Error *error)
@@ -472,29 +472,31 @@ static bool open_shoot(SessionRender *render, Error *error)
         if (!compare_is_other(scene_view(scene, i)))
             panels[count++] = (PicturePanel){.session = &render->session, .view = scene_view(scene, i)};
     render->world = render->session.run.world;
-    return count > 0 ? panel_pictures_open(&render->panel_pictures, panels, count, false, render->args->width,
+    return count > 0 ? panel_pictures_open(&render->panel_pictures, panels, count, render->args->width,
                                            render->args->height, error)
                      : error_set(error, "%s: no view shows the session itself", render->args->scenes[0]);
-}
-
-static bool take_picture(SessionRender *render, Error *error)
-{
-    if ((render->world != render->session.run.world && !open_shoot(render, error)) ||
-        !panel_pictures_take(&render->panel_pictures, render->session.run.info.time, error) ||
-        !panel_pictures_draw(&render->panel_pictures, error))
-        return false;
-    do {
-        if (!pictures_add(render->pictures, &render->panel_pictures.image, error))
-            return false;
-        render->taken++;
-    } while (render->kind != PICTURES_PNG && session_reached(&render->session, next_time(render)) &&
-             (render->wanted == 0 || render->taken < render->wanted));
-    return true;
 }
 
 static bool is_full(const SessionRender *render)
 {
     return render->wanted > 0 && render->taken == render->wanted;
+}
+
+static bool take_picture(SessionRender *render, Error *error)
+{
+    if (render->world != render->session.run.world && !open_shoot(render, error))
+        return false;
+    do {
+        const double time = fmin(next_time(render), render->session.run.info.time);
+        if (!panel_pictures_take(&render->panel_pictures, time, error) ||
+            !panel_pictures_draw(&render->panel_pictures, error) ||
+            !pictures_add(render->pictures, &render->panel_pictures.image, error))
+            return false;
+        render->late = fmax(render->late, panel_pictures_late(&render->panel_pictures, time));
+        render->taken++;
+    } while (render->kind != PICTURES_PNG && session_reached(&render->session, next_time(render)) &&
+             !is_full(render));
+    return true;
 }
 
 /* Handles a state: applies the commands, and takes a picture if due. */
@@ -519,6 +521,17 @@ static bool take_last(SessionRender *render, Error *error)
     return render->taken > 0 || take_picture(render, error);
 }
 
+/* Prepares a step: shows the state to overlays, and keeps the state if a picture may be due within the step.
+ */
+static bool foresee(SessionRender *render, Error *error)
+{
+    const Session *session = &render->session;
+    const double time = next_time(render);
+    return panel_pictures_watch(&render->panel_pictures, session, time, error) &&
+           (!render_between(render->args, render->kind != PICTURES_PNG) ||
+            panel_pictures_keep(&render->panel_pictures, session, time, error));
+}
+
 static bool simulate(SessionRender *render, Error *error)
 {
     Session *session = &render->session;
@@ -528,8 +541,7 @@ static bool simulate(SessionRender *render, Error *error)
             return false;
         if (is_over(render))
             return take_last(render, error);
-        if (render->world == session->run.world &&
-            !panel_pictures_watch(&render->panel_pictures, session, next_time(render), error))
+        if (render->world == session->run.world && !foresee(render, error))
             return false;
         if (!session_substep(session, error)) {
             if (!recording_play_broke(&render->play, session))
@@ -562,13 +574,14 @@ static bool write_json(const SessionRender *render, Error *error)
     if (!render->args->json)
         return true;
     snprintf(hash, sizeof hash, "%016" PRIx64, render->hash);
-    json_t *json = json_pack(
-        "{s:s, s:s, s:s, s:I, s:I, s:I, s:f, s:f, s:s, s:b, s:b, s:s}", "command", "render", "recording",
-        render->play.path, "output", render->args->output, "pictures", (json_int_t)render->taken, "particles",
-        (json_int_t)session->run.info.count, "steps", (json_int_t)session->run.info.step, "simulated_seconds",
-        session->run.info.time, "wall_seconds", 1e-3 * (wall_ms() - session->began_ms), "hash", hash, "same",
-        render->ended && recording_play_same(&render->play, render->hash), "stopped", interrupted(),
-        "renderer", headless_renderer(session->context));
+    json_t *json = json_pack("{s:s, s:s, s:s, s:I, s:f, s:I, s:I, s:f, s:f, s:s, s:b, s:b, s:s}", "command",
+                             "render", "recording", render->play.path, "output", render->args->output,
+                             "pictures", (json_int_t)render->taken, "picture_late_seconds", render->late,
+                             "particles", (json_int_t)session->run.info.count, "steps",
+                             (json_int_t)session->run.info.step, "simulated_seconds", session->run.info.time,
+                             "wall_seconds", 1e-3 * (wall_ms() - session->began_ms), "hash", hash, "same",
+                             render->ended && recording_play_same(&render->play, render->hash), "stopped",
+                             interrupted(), "renderer", headless_renderer(session->context));
     const bool written = json_file_write(json, render->args->json, error);
     json_decref(json);
     return written;

@@ -179,7 +179,7 @@ void session_warn_uneven(const Session *session, const char *what, double interv
                 "%s%s are at uneven times: a frame of %.4g s does not divide the %.4g s between them; "
                 "--set solver.step.dt=%.6g, --set solver.step.mode=cfl%s makes them even\n",
                 session->prefix, what, dt, interval, rounded_up(interval / frames),
-                strcmp(what, "pictures") == 0 ? " or --interpolate" : "");
+                strcmp(what, "pictures") == 0 ? " or leaving --steps out" : "");
 }
 
 /* Prints a message of the run. */
@@ -304,8 +304,10 @@ json_t *session_json(const Session *session, const Args *args, const Summary *su
         json_object_set_new(json, "forces", forces_log_json(summary->forces));
     if (json && summary->probes)
         json_object_set_new(json, "probes", probe_table_json(summary->probes));
-    if (json && summary->renderer)
+    if (json && summary->renderer) {
         json_object_set_new(json, "renderer", json_string(summary->renderer));
+        json_object_set_new(json, "picture_late_seconds", json_real(summary->late));
+    }
     if (json && session->run.ranks)
         json_object_set_new(json, "ranks", json_integer(session->run.ranks->size));
     return json;

@@ -70,6 +70,7 @@ typedef struct Summary {
     const char *product; /* "snapshots" or "pictures" */
     size_t products;
     const char *renderer;                  /* NULL: nothing was drawn */
+    double late;                           /* greatest delay of a state after the time of its picture, s */
     double step_seconds;                   /* wall time of the steps alone; 0: not measured */
     const CompressionFigures *compression; /* of the observed states; NULL: none */
     const struct ForcesLog *forces;        /* NULL: not requested */

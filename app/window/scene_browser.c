@@ -193,7 +193,7 @@ static bool draw(const Session *session, Image *image, Error *error)
     PanelPictures panel_pictures = {.source_count = 0};
     const PicturePanel panel = {.session = session, .view = &session->run.scene.view};
     const bool ok =
-        panel_pictures_open(&panel_pictures, &panel, 1, false, THUMBNAIL_WIDTH, THUMBNAIL_HEIGHT, error) &&
+        panel_pictures_open(&panel_pictures, &panel, 1, THUMBNAIL_WIDTH, THUMBNAIL_HEIGHT, error) &&
         panel_pictures_take(&panel_pictures, session->run.info.time, error) &&
         panel_pictures_draw(&panel_pictures, error);
     if (ok) {

@@ -27,6 +27,7 @@ static void thrown(StateCopy *still, double time, bool turned)
     still->state.box.orientation[3] = 1;
     still->state.box.position[0] = 0.5 * 4 * time * time;
     still->state.box.velocity[0] = 4 * time;
+    still->state.floating[1] = still->state.box;
 }
 
 static void free_fall_is_exact(void **state)
@@ -44,6 +45,8 @@ static void free_fall_is_exact(void **state)
         assert_int_equal(out.state.count, COUNT);
         assert_float_equal(out.state.time, time, 1e-12);
         assert_float_equal(out.state.box.position[0], exact.state.box.position[0], 1e-12);
+        assert_float_equal(out.state.floating[1].position[0], exact.state.floating[1].position[0], 1e-12);
+        assert_memory_equal(&out.state.floating[0], &exact.state.floating[0], sizeof(BoxState)); /* no pose */
         for (size_t i = 0; i < COUNT; i++) {
             assert_int_equal(out.arrays.id[i], exact.arrays.id[i]);
             assert_int_equal(out.arrays.fluid[i], exact.arrays.fluid[i]);

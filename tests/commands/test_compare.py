@@ -99,12 +99,12 @@ class Panels(CompareTest):
 
     def test_pictures_of_one_time(self):
         steps, small = ['--compare', 'solver.step.dt=0.004,0.006', '--fps', '50'], {'time': '0.1', 'size': '321x200'}
-        said, result = self.compare(*steps, output='film.mp4', **small)
+        said, result = self.compare(*steps, '--steps', output='film.mp4', **small)
         self.assertEqual((video_frames(self.path('film.mp4')), result['pictures']), (5, 5))
-        self.assertRegex(said, r"panels show their first states at or after a picture's time, up to 0\.004 s apart; --interp")
+        self.assertRegex(said, r"panels show their first states at or after a picture's time, up to 0\.004 s apart; leaving --steps out")
         self.assertEqual(said.count('pictures are at uneven times'), 1, said)
         self.assertIn('solver.step.dt 0.006: pictures are at uneven times', said)
-        fluids = '--interpolate', '--set', 'view.color_by=fluid'
+        fluids = '--set', 'view.color_by=fluid'
         said, result = self.compare(*steps, *fluids, output='frames', **small)
         self.assertEqual([p['time'] for p in result['panels']], [0.08, 0.08])
         self.assertNotIn('apart', said)

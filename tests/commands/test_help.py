@@ -19,7 +19,7 @@ VALUES = {
     '--simd': 'baseline', '--threads': '1', '--gpu': '0', '--shaders': SHADERS, '--device': 'file:device.rec', '--mapping': 'mapping.yaml',
     '--json': 'out.json', '--quiet': None, '--clock': 'finish', '--sweep': 'threads=1', '--frame': 'world',
     '--surface': None, '--level': '0.5', '--cell': '1', '--color-by': 'speed', '--record': 'out.rec', '--past': '64', '--watch': None,
-    '--seconds': '1', '--coarse': None, '--error': '90', '--frame-ms': '33', '--full': None, '--interpolate': None, '--help': None,
+    '--seconds': '1', '--coarse': None, '--error': '90', '--frame-ms': '33', '--full': None, '--interpolate': None, '--steps': None, '--help': None,
     '--compare': 'view.colormap=viridis,gray', '--preset': 'honey', '--save': 'saved.yaml'}
 
 # What does not go with the rest, or needs a display: by command.

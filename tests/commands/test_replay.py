@@ -68,6 +68,9 @@ class Replay(CommandTest):
         self.assertIn(' left\n', said)  # an estimate
         self.assertEqual((found['same'], found['hash'], found['steps'], found['pictures']), (True, value, 100, 21))
         self.assertEqual(video_frames(self.path('a.mp4')), 21)
+        for more, late in (['--steps'], 0.002), ([], 0):  # pictures 7.5 steps apart, in either mode of steps
+            code, said, found = self.film('-o', 'a', '--time', '0.1', '--fps', str(1 / 0.015), *more)
+            self.assertAlmostEqual(found['picture_late_seconds'], late / 2 if late else 0, msg=said)
         code, said, found = self.film('-o', 'a.png')  # the end
         self.assertEqual((code, found['same'], found['pictures']), (0, True, 1), said)
         code, said, found = self.film('-o', 'a', '--time', '0.1', '--fps', '100')

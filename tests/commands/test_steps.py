@@ -48,9 +48,13 @@ class Steps(CommandTest):
         said = self.go('--set', 'solver.step.dt=0.0013333', '--every', '0.004')  # the third ends before the time
         self.assertIn('--set solver.step.dt=0.00133334,', said)
 
+    def late(self):
+        return json.loads(self.read('late.json'))['picture_late_seconds']
+
     def render(self, folder, *more):
         done, said = self.slosh('render', 'scene.yaml', '-o', folder, '--frames', '4', '--fps', '75', '--size', '64x64',
-                                '--set', 'solver.step={dt: 0.02, substeps: 8}', '--set', 'gravity=[0, -30, 0]', *more)
+                                '--set', 'solver.step={dt: 0.02, substeps: 8}', '--set', 'gravity=[0, -30, 0]',
+                                '--json', 'late.json', *more)
         self.assertEqual(done, 0, said)
         with_data = []
         for name in sorted(os.listdir(self.path(folder))):
@@ -59,13 +63,32 @@ class Steps(CommandTest):
         return said, with_data
 
     def test_pictures_between_states(self):
-        said, without = self.render('a')  # 0, 13.3, 26.7 and 40 ms: the states at 0, 20, 40 and 40 ms
+        said, without = self.render('a', '--steps')  # 0, 13.3, 26.7 and 40 ms: the states at 0, 20, 40 and 40 ms
         self.assertIn('pictures are at uneven times', said)
+        self.assertIn('or leaving --steps out makes them even', said)
         self.assertEqual(without[2], without[3])
-        said, between = self.render('b', '--interpolate')
+        self.assertAlmostEqual(self.late(), 0.04 - 2 / 75)
+        said, between = self.render('b')
         self.assertNotIn('uneven', said)
         self.assertEqual((between[0], between[3]), (without[0], without[3]))
         self.assertEqual(len(set(between)), 4)
+        self.assertAlmostEqual(self.late(), 0)
+
+    def test_films_are_at_even_times(self):
+        """Of a scene, in each mode and beside one another, and of a session; one picture shows a step."""
+        film = ('--frames', '4', '--fps', '40', '--size', '64x64', '--json', 'late.json')
+        for name in 'film.mp4', 'film.gif', 'film':
+            for more in ((), ('--set', 'solver.step.mode=cfl'), ('--compare', 'solver.step.dt=0.02,0.03')):
+                code, said = self.slosh('render', 'scene.yaml', '-o', name, *film, '--set', 'solver.step={dt: 0.02, substeps: 8}', *more)
+                self.assertEqual((code, self.late() < 1e-6), (0, True), said)
+                self.assertNotIn('uneven', said)
+        one = ('--time', '0.05', '--set', 'solver.step.dt=0.02', '--size', '64x64', '--json', 'late.json')
+        for more, late in ((), 0.01), (['--interpolate'], 0), (['--steps'], 0.01):
+            code, said = self.slosh('render', 'scene.yaml', '-o', 'one.png', *one, *more)
+            self.assertEqual(code, 0, said)
+            self.assertAlmostEqual(self.late(), late)
+        code, said = self.slosh('render', 'scene.yaml', '-o', 'one.png', *one, '--steps', '--interpolate')
+        self.assertEqual((code, said.count('leave one out')), (2, 1), said)
 
     def test_cfl_resumes(self):
         cfl = ('--set', 'solver.step.mode=cfl', '--every', '0.01', '--quiet')

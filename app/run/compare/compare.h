@@ -184,8 +184,7 @@ typedef struct PictureSource {
     unsigned attributes; /* read by its views */
     Upload *upload;      /* NULL: the world's particles are on the GPU */
     size_t capacity;     /* capacity of both, particles; a recorded session may raise the world's count */
-    bool interpolates;
-    Upload *upload_interpolated;      /* for interpolated states; NULL: no interpolation */
+    Upload *upload_interpolated;      /* for interpolated states; NULL: none yet */
     StateCopy before, after, between; /* states before and after the last step, and the interpolated state */
     ParticleBuffers state;            /* in the last picture */
     bool is_interpolated, taken;      /* the state is interpolated; there is a state */
@@ -206,21 +205,19 @@ typedef struct PanelPictures {
 } PanelPictures;
 
 /* Opens pictures for `count` panels, 1 to PANELS_MAX, in pictures of the given size; in the current
-   context. `interpolates`: interpolate states within a fixed step (app/run/playback/playback.h). On
-   failure call panel_pictures_close as well. */
-bool panel_pictures_open(PanelPictures *pictures, const PicturePanel panels[], int count, bool interpolates,
-                         int width, int height, Error *error);
+   context. On failure call panel_pictures_close as well. */
+bool panel_pictures_open(PanelPictures *pictures, const PicturePanel panels[], int count, int width,
+                         int height, Error *error);
 void panel_pictures_close(PanelPictures *pictures); /* a zeroed one is allowed */
 
-/* Call before each step of a session that may be the last before the time of a picture. */
-bool panel_pictures_keep(PanelPictures *pictures, const Session *session, Error *error);
+/* Call before each step of a session for pictures between two states, at their own times. Keeps the state if
+   the step can reach `time` (s), the time of the next picture. Without calls a picture shows the first state
+   at or after its time. */
+bool panel_pictures_keep(PanelPictures *pictures, const Session *session, double time, Error *error);
 
 /* Call before each step: overlays following particles see states between pictures too (OverlayKind.every);
    `time` (s): of the next picture. */
 bool panel_pictures_watch(PanelPictures *pictures, const Session *session, double time, Error *error);
-
-/* True if pictures of the session are interpolated. */
-bool panel_pictures_interpolates(const PanelPictures *pictures, const Session *session);
 
 /* panel_pictures_take: takes the states of the picture at `time` (s). panel_pictures_draw: draws into
    pictures->image, unless no state has changed since the last picture. */
@@ -229,6 +226,10 @@ bool panel_pictures_draw(PanelPictures *pictures, Error *error);
 
 /* Returns the time between the earliest and the latest state of the last picture, s; runs are ignored. */
 double panel_pictures_spread(const PanelPictures *pictures);
+
+/* Returns how late the latest state of the last picture is for a picture at `time` (s), s; runs are ignored.
+ */
+double panel_pictures_late(const PanelPictures *pictures, double time);
 
 /* True if two panels of the last picture are equal below their titles, given one title per panel. */
 bool panel_pictures_same(const PanelPictures *pictures, int a, int b, const Title titles[]);

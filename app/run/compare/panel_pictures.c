@@ -87,9 +87,6 @@ static bool uploads_fit(PictureSource *source, Error *error)
     upload_destroy(source->upload_interpolated);
     upload_destroy(source->upload);
     source->upload_interpolated = source->upload = NULL;
-    if (source->interpolates &&
-        !(source->upload_interpolated = upload_create(2 * info.capacity, source->attributes, error)))
-        return false;
     if (!world_shares(source->session->run.world) &&
         !(source->upload = upload_create(info.capacity, upload_attributes(source->attributes), error)))
         return false;
@@ -97,13 +94,9 @@ static bool uploads_fit(PictureSource *source, Error *error)
     return true;
 }
 
-static bool source_open(PictureSource *source, bool interpolates, Error *error)
+static bool source_open(PictureSource *source, Error *error)
 {
-    const Session *session = source->session;
-    if (!session)
-        return open_prefetch(source, error);
-    source->interpolates = interpolates && session->run.scene.world.step_mode == STEP_FIXED;
-    return uploads_fit(source, error);
+    return source->session ? uploads_fit(source, error) : open_prefetch(source, error);
 }
 
 static void source_close(PictureSource *source)
@@ -116,8 +109,8 @@ static void source_close(PictureSource *source)
     upload_destroy(source->upload);
 }
 
-bool panel_pictures_open(PanelPictures *pictures, const PicturePanel panels[], int count, bool interpolates,
-                         int width, int height, Error *error)
+bool panel_pictures_open(PanelPictures *pictures, const PicturePanel panels[], int count, int width,
+                         int height, Error *error)
 {
     Subject subjects[PANELS_MAX] = {{NULL}};
     *pictures = (PanelPictures){.panels = NULL};
@@ -134,7 +127,7 @@ bool panel_pictures_open(PanelPictures *pictures, const PicturePanel panels[], i
         pictures->solids[i] = subjects[i].world->solid_count;
     }
     for (int i = 0; i < pictures->source_count; i++)
-        if (!source_open(&pictures->sources[i], interpolates, error))
+        if (!source_open(&pictures->sources[i], error))
             return false;
     pictures->panels = panels_create(subjects, count, width, height, error);
     return pictures->panels && (image_create(&pictures->image, width, height) ||
@@ -155,18 +148,13 @@ static PictureSource *source_of(PanelPictures *pictures, const Session *session)
     return &pictures->sources[source_find(pictures, session, NULL)];
 }
 
-bool panel_pictures_interpolates(const PanelPictures *pictures, const Session *session)
-{
-    for (int i = 0; i < pictures->source_count; i++)
-        if (pictures->sources[i].session == session)
-            return pictures->sources[i].interpolates;
-    return false;
-}
-
-bool panel_pictures_keep(PanelPictures *pictures, const Session *session, Error *error)
+bool panel_pictures_keep(PanelPictures *pictures, const Session *session, double time, Error *error)
 {
     PictureSource *source = source_of(pictures, session);
-    return state_copy_read(&source->before, session->run.world, source->attributes) ||
+    const WorldDef *def = &session->run.scene.world;
+    const double longest = def->step_mode == STEP_FIXED ? def->dt : def->max_dt;
+    return session->run.info.time + 1.001 * longest < time ||
+           state_copy_read(&source->before, session->run.world, source->attributes) ||
            error_set(error, "out of memory for a picture between two states");
 }
 
@@ -175,7 +163,9 @@ static bool take_between(PictureSource *source, double time, Error *error)
     const Session *session = source->session;
     const unsigned attributes = source->attributes;
     StateCopy *between = &source->between;
-    if (!uploads_fit(source, error))
+    if (!uploads_fit(source, error) ||
+        (!source->upload_interpolated &&
+         !(source->upload_interpolated = upload_create(2 * source->capacity, attributes, error))))
         return false;
     if (!state_copy_read(&source->after, session->run.world, attributes) ||
         !state_copy_reserve(between, source->before.state.count + source->after.state.count, attributes) ||
@@ -267,8 +257,8 @@ static bool take(const PanelPictures *pictures, PictureSource *source, double ti
     if (!session)
         return take_recorded(pictures, source, source->scene ? source->scene->run.info.time : time, fresh,
                              error);
-    const bool between = source->interpolates && source->before.state.count > 0 &&
-                         session->run.info.time > time + 1e-6 * session->run.scene.world.dt;
+    const bool between =
+        source->before.state.count > 0 && session->run.info.time > time + 1e-6 * session->run.scene.world.dt;
     if (!between && source->taken && !source->is_interpolated && source->state.step == session->run.info.step)
         return true;
     if (!(between ? take_between(source, time, error) : take_present(source, error)))
@@ -326,6 +316,15 @@ double panel_pictures_spread(const PanelPictures *pictures)
         last = fmax(last, pictures->sources[i].state.time);
     }
     return last - first;
+}
+
+double panel_pictures_late(const PanelPictures *pictures, double time)
+{
+    double late = 0;
+    for (int i = 0; i < pictures->source_count; i++)
+        if (pictures->sources[i].session)
+            late = fmax(late, pictures->sources[i].state.time - time);
+    return late;
 }
 
 static const uint8_t *pixel(const Image *image, int x, int y)

@@ -122,29 +122,47 @@ static void move_on(StateCopy *out, size_t at, double seconds, const bool period
     }
 }
 
-/* Interpolates the box; the orientation linearly along the shorter arc, as a step turns the box only
-   slightly. */
-static void blend_box(const StateCopy *before, const StateCopy *after, const Blend *blend, StateCopy *out)
+/* Interpolates the pose of the box or of a solid; the orientation linearly along the shorter arc, as a step
+   turns them only slightly. */
+static BoxState blend_pose(const BoxState *a, const BoxState *b, const Blend *blend)
 {
-    const BoxState *a = &before->state.box, *b = &after->state.box;
-    BoxState *box = &out->state.box;
+    BoxState pose = *b;
     const double s = blend->s;
     double dot = 0, norm = 0;
     for (int k = 0; k < 4; k++)
         dot += a->orientation[k] * b->orientation[k];
     for (int k = 0; k < 4; k++) {
-        box->orientation[k] = (1 - s) * a->orientation[k] + (dot < 0 ? -s : s) * b->orientation[k];
-        norm += box->orientation[k] * box->orientation[k];
+        pose.orientation[k] = (1 - s) * a->orientation[k] + (dot < 0 ? -s : s) * b->orientation[k];
+        norm += pose.orientation[k] * pose.orientation[k];
     }
     for (int k = 0; k < 4; k++)
-        box->orientation[k] /= sqrt(norm);
+        pose.orientation[k] /= sqrt(norm);
     for (int k = 0; k < 3; k++) {
-        box->position[k] = blend->from * a->position[k] + blend->to * b->position[k] +
+        pose.position[k] = blend->from * a->position[k] + blend->to * b->position[k] +
                            blend->leave * a->velocity[k] + blend->arrive * b->velocity[k];
-        box->velocity[k] = (1 - s) * a->velocity[k] + s * b->velocity[k];
-        box->angular_velocity[k] = (1 - s) * a->angular_velocity[k] + s * b->angular_velocity[k];
-        out->state.gravity[k] = (1 - s) * before->state.gravity[k] + s * after->state.gravity[k];
+        pose.velocity[k] = (1 - s) * a->velocity[k] + s * b->velocity[k];
+        pose.angular_velocity[k] = (1 - s) * a->angular_velocity[k] + s * b->angular_velocity[k];
     }
+    return pose;
+}
+
+static bool has_pose(const BoxState *solid)
+{
+    double norm = 0;
+    for (int k = 0; k < 4; k++)
+        norm += solid->orientation[k] * solid->orientation[k];
+    return norm > 0;
+}
+
+static void blend_poses(const ParticleBuffers *before, const ParticleBuffers *after, const Blend *blend,
+                        ParticleBuffers *out)
+{
+    out->box = blend_pose(&before->box, &after->box, blend);
+    for (int i = 0; i < SOLIDS_MAX; i++) /* a solid put within the step has no earlier pose */
+        if (has_pose(&before->floating[i]) && has_pose(&after->floating[i]))
+            out->floating[i] = blend_pose(&before->floating[i], &after->floating[i], blend);
+    for (int k = 0; k < 3; k++)
+        out->gravity[k] = (1 - blend->s) * before->gravity[k] + blend->s * after->gravity[k];
 }
 
 /* Index of each id in a state, plus one; 0: id absent. Caller frees; NULL if memory is short. */
@@ -172,7 +190,7 @@ bool interpolate_states(const StateCopy *before, const StateCopy *after, const b
     out->state = after->state;
     out->state.time = time;
     out->state.count = 0;
-    blend_box(before, after, &blend, out);
+    blend_poses(&before->state, &after->state, &blend, &out->state);
     for (size_t i = 0; i < after->state.count; i++) {
         const uint32_t id = after->arrays.id[i], was = id < ids ? place[id] : 0;
         if (was) {

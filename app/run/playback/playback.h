@@ -27,10 +27,10 @@ bool state_copy_reserve(StateCopy *copy, size_t count, unsigned attributes);
 bool state_copy_read(StateCopy *copy, World *world, unsigned attributes);
 
 /* Interpolates both states at `time` (s). A particle, found by its id, follows the cubic curve with its
-   positions and velocities at both states, the short way across periodic sides. The box is interpolated
-   separately, scalars linearly. A particle of one state only (emitted, drained) moves on with its velocity,
-   and exists in the half of the step nearer to its state. `out` has room for the particles of both states.
-   Returns false if memory is short. */
+   positions and velocities at both states, the short way across periodic sides. The box and floating solids
+   do the same. Scalars are interpolated linearly. A particle of one state only (emitted, drained) moves on
+   with its velocity, and exists in the half of the step nearer to its state. `out` has room for the particles
+   of both states. Returns false if memory is short. */
 bool interpolate_states(const StateCopy *before, const StateCopy *after, const bool periodic[3], double time,
                         StateCopy *out);
 
