@@ -91,6 +91,9 @@ void bench_print(const BenchResult *result, FILE *file);
    reason if the file can't be written. */
 bool bench_write_json(const BenchResult *results, size_t count, const char *path, Error *error);
 
+/* Draws a chart of the stages, FILE.svg or FILE.png: a bar per case without failure, at least one. */
+bool bench_stages_draw(const BenchResult *results, size_t count, const char *path, Error *error);
+
 /* Published tables, measured again: the runs of each table, and a print of measured beside published
    figures. */
 

@@ -4,6 +4,7 @@
 #include "app/bench/plot.h"
 #include "render/frame/view.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -313,7 +314,7 @@ bool bench_table_print(const BenchTable *table, const BenchResult *results, size
 
 /* The charts of published tables. */
 
-enum { WIDTH = 820, HEIGHT = 460, LINES_MAX = 32, BAR = 72, MARGINS = 230 }; /* px; bars have names below */
+enum { WIDTH = 820, HEIGHT = 380, LINES_MAX = 32, NAME = 96 }; /* px: the picture, its panel */
 
 /* True if an earlier result has the same view and backend. */
 static bool seen_before(const BenchResult *results, size_t at)
@@ -351,6 +352,11 @@ static void draw_published(const BenchTable *table, const Reference *reference, 
     }
 }
 
+static void line_title(const BenchResult *result, char title[NAME])
+{
+    snprintf(title, NAME, "%s, %s", result->backend, result->view);
+}
+
 /* Draws a line for each view and backend. */
 static void draw_shares(const BenchTable *table, const BenchResult *results, size_t count,
                         const Reference *reference, Plot *plot)
@@ -361,10 +367,10 @@ static void draw_shares(const BenchTable *table, const BenchResult *results, siz
     draw_published(table, reference, "CPU", 4, plot);
     draw_published(table, reference, "GPU", 6, plot);
     for (size_t i = 0, line = 0; i < count && line < LINES_MAX; i++) {
-        char title[80];
+        char title[NAME];
         if (seen_before(results, i))
             continue;
-        snprintf(title, sizeof title, "%s, %s", results[i].backend, results[i].view);
+        line_title(&results[i], title);
         plot_series(plot, title, "with linespoints lw 2 lt %zu pt 7", ++line);
         for (size_t k = i; k < count; k++)
             if (!*results[k].failure.message && strcmp(results[k].view, results[i].view) == 0 &&
@@ -373,28 +379,62 @@ static void draw_shares(const BenchTable *table, const BenchResult *results, siz
     }
 }
 
+/* Fills in a bar's name: the differences between rows of the table. */
+static void bar_name(const BenchTable *table, const BenchResult *r, char name[NAME])
+{
+    if (table->sweep)
+        snprintf(name, NAME, "%s\\n%zu", bench_table_row_name(table, r), r->particles);
+    else
+        snprintf(name, NAME, "%s\\n%s\\n%d x %g s", r->backend, r->view, r->substeps, r->dt_substep);
+}
+
 /* Draws stacked bars, one per result. */
-static void draw_times(const BenchTable *table, const BenchResult *results, size_t count, Plot *plot)
+static void draw_times(const BenchTable *table, const BenchResult *results, size_t count, size_t bars,
+                       Plot *plot)
 {
     const char *titles[BENCH_TABLE_COLUMNS + 1] = {NULL};
     const int columns = column_count(table);
     for (int c = 0; c < columns; c++)
         titles[c] = table->columns[c].title;
     plot_set(plot, "ylabel", "time of a frame, ms", "");
-    fputs("set bmargin 5\n", plot_commands(plot));
-    plot_bars(plot, titles, NULL);
+    plot_bars(plot, titles, NULL, bars);
     for (size_t i = 0; i < count; i++) {
         const BenchResult *r = &results[i];
         double values[BENCH_TABLE_COLUMNS];
+        char name[NAME];
         if (*r->failure.message)
             continue;
         for (int c = 0; c < columns; c++)
             values[c] = bench_table_value(table, r, c);
-        if (table->sweep)
-            plot_bar(plot, values, "%s\\n%zu", bench_table_row_name(table, r), r->particles);
-        else
-            plot_bar(plot, values, "%s\\n%s\\n%d x %g s", r->backend, r->view, r->substeps, r->dt_substep);
+        bar_name(table, r, name);
+        plot_bar(plot, values, name);
     }
+}
+
+/* Fills in the page of the chart: a legend of lines, or of columns beside bars with room for names. Returns
+   the count of bars. */
+static size_t make_page(const BenchTable *table, const BenchResult *results, size_t count, PlotPage *page)
+{
+    size_t bars = 0;
+    double bar = 0;
+    *page = (PlotPage){.width = WIDTH,
+                       .height = HEIGHT,
+                       .legend = table->shares ? plot_legend_width("GPU, published") : 0,
+                       .lines = table->shares ? 2 : 3};
+    for (int c = 0; c < column_count(table) && !table->shares; c++)
+        page->legend = fmax(page->legend, plot_legend_width(table->columns[c].title));
+    for (size_t i = 0; i < count; i++) {
+        char name[NAME];
+        line_title(&results[i], name);
+        if (table->shares)
+            page->legend = fmax(page->legend, plot_legend_width(name));
+        bar_name(table, &results[i], name);
+        bar = fmax(bar, plot_bar_width(name));
+        bars += !*results[i].failure.message;
+    }
+    const int wide = (int)(bar * (double)(bars + 1) + page->legend) + 100;
+    page->width = !table->shares && wide > WIDTH ? wide : WIDTH;
+    return bars;
 }
 
 bool bench_table_draw(const BenchTable *table, const BenchResult *results, size_t count, const char *path,
@@ -402,15 +442,16 @@ bool bench_table_draw(const BenchTable *table, const BenchResult *results, size_
 {
     Reference reference = {.rows = 0};
     Plot plot = {.gnuplot = NULL};
-    const int bars = table->shares ? 0 : MARGINS + BAR * (int)count, width = bars > WIDTH ? bars : WIDTH;
+    PlotPage page;
+    const char *const titles[] = {table->help, count > 0 ? results[0].renderer : ""};
+    const size_t bars = make_page(table, results, count, &page);
     if ((table->reference && !reference_load(table->reference, &reference, error)) ||
-        !plot_begin(&plot, path, width, HEIGHT, error))
+        !plot_begin_page(&plot, path, titles, 2, &page, error))
         return false;
-    plot_set(&plot, "title", count > 0 ? results[0].renderer : "", "");
     if (table->shares)
         draw_shares(table, results, count, &reference, &plot);
     else
-        draw_times(table, results, count, &plot);
+        draw_times(table, results, count, bars, &plot);
     plot_draw(&plot, NULL);
     return plot_end(&plot, error);
 }

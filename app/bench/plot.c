@@ -71,12 +71,13 @@ bool plot_begin(Plot *plot, const char *path, int width, int height, Error *erro
     }
     plot->width = width;
     plot->height = height;
-    fprintf(plot->gnuplot, "set terminal %s size %d,%d font 'DejaVu Sans,11' background '#ffffff'\n",
-            has_ending(path, ".svg") ? "svg" : "pngcairo", width, height);
+    /* a point is a pixel of an SVG, unless scaled */
+    fprintf(plot->gnuplot, "set terminal %s size %d,%d font 'DejaVu Sans,9' background '#ffffff'\n",
+            has_ending(path, ".svg") ? "svg fontscale 1.33333" : "pngcairo", width, height);
     fputs("set encoding utf8\nset output ", plot->gnuplot);
     quote(plot->gnuplot, plot->output.temp);
-    fputs("\nset border 3 lc '#5a6672'\nset tics nomirror textcolor '#2a3440'\n"
-          "set grid lc '#d8dee4' lt 1\nset key outside right top noenhanced\n"
+    fputs("\nset border 3 lc '#5a6672'\nset tics nomirror noenhanced textcolor '#2a3440'\n"
+          "set grid lc '#d8dee4' lt 1\nset key outside right top Left reverse noenhanced\n"
           "set linetype 1 lc '#2a6f97'\nset linetype 2 lc '#e07a3f'\nset linetype 3 lc '#4f9d69'\n"
           "set linetype 4 lc '#b0457b'\nset linetype 5 lc '#c9a227'\nset linetype 6 lc '#5b5ea6'\n"
           "set linetype 7 lc '#7a4f2a'\nset linetype 8 lc '#35a7a0'\nset linetype 9 lc '#c0392b'\n"
@@ -133,18 +134,60 @@ void plot_set(Plot *plot, const char *name, const char *text, const char *option
 void plot_text(Plot *plot, double x, double y, const char *align, double font, const char *colour,
                const char *text)
 {
-    char name[32], options[160];
-    snprintf(name, sizeof name, "label %d", ++plot->labels);
+    char options[160];
     snprintf(options, sizeof options, " at screen %.5f,%.5f %s noenhanced font ',%g' textcolor '%s'",
              x / plot->width, 1 - y / plot->height, align, font, colour);
-    plot_set(plot, name, text, options);
+    plot_set(plot, "label", text, options);
 }
 
-void plot_titles(Plot *plot, const char *const lines[], int count)
+/* Takes as many words as fit off the text; returns the rest. A single word always fits. */
+static const char *take_line(const char *text, double font, double width, char line[], size_t size)
 {
+    size_t taken = 0;
+    for (const char *end = text; end && *text; end = *end ? end : NULL) {
+        end += strspn(end, " ");
+        end += strcspn(end, " ");
+        snprintf(line, size, "%.*s", (int)(end - text), text);
+        if (taken > 0 && label_width(line, font) > width)
+            break;
+        taken = (size_t)(end - text);
+    }
+    snprintf(line, size, "%.*s", (int)taken, text);
+    return text + taken + strspn(text + taken, " ");
+}
+
+/* Writes the titles, or without a plot only measures. */
+static double put_titles(Plot *plot, const char *const lines[], int count, int width)
+{
+    enum { TITLE_FONT = 11, FONT = 8, TITLE_HEIGHT = 20, HEIGHT = 15, TOP = 8, MARGIN = 12 };
+    double end = TOP;
     for (int i = 0; i < count; i++)
-        plot_text(plot, 0.5 * plot->width, i ? 22 + 15 * i : 18, "center", i ? 8 : 11,
-                  i ? "#5a6672" : "#2a3440", lines[i]);
+        for (const char *rest = lines[i]; rest && *rest;) {
+            char line[512];
+            const double high = i ? HEIGHT : TITLE_HEIGHT;
+            rest = take_line(rest, i ? FONT : TITLE_FONT, width - 2 * MARGIN, line, sizeof line);
+            if (plot)
+                plot_text(plot, 0.5 * width, end + 0.5 * high, "center", i ? FONT : TITLE_FONT,
+                          i ? "#5a6672" : "#2a3440", line);
+            end += high;
+        }
+    return end;
+}
+
+double plot_legend_width(const char *widest)
+{
+    enum { SAMPLE = 46, MARGIN = 8 };
+    return SAMPLE + label_width(widest, PLOT_LEGEND_FONT) + MARGIN;
+}
+
+double plot_titles_end(const char *const lines[], int count, int width)
+{
+    return put_titles(NULL, lines, count, width);
+}
+
+double plot_titles(Plot *plot, const char *const lines[], int count)
+{
+    return put_titles(plot, lines, count, plot->width);
 }
 
 void plot_panel(Plot *plot, LabelBox panel, double legend_left, double legend_top)
@@ -155,10 +198,23 @@ void plot_panel(Plot *plot, LabelBox panel, double legend_left, double legend_to
     fprintf(plot_commands(plot),
             "%sset lmargin at screen %.5f\nset rmargin at screen %.5f\nset tmargin at screen %.5f\n"
             "set bmargin at screen %.5f\nset key at screen %.5f,%.5f left top Left reverse noenhanced "
-            "maxcols 1 samplen 3 font ',9'\n",
+            "maxcols 1 samplen 3 font ',%d'\n",
             plot->panels ? "" : "set multiplot\n", panel.left / w, panel.right / w, 1 - panel.top / h,
-            1 - panel.bottom / h, legend_left / w, 1 - legend_top / h);
+            1 - panel.bottom / h, legend_left / w, 1 - legend_top / h, PLOT_LEGEND_FONT);
     plot->panels = true;
+}
+
+bool plot_begin_page(Plot *plot, const char *path, const char *const titles[], int count,
+                     const PlotPage *page, Error *error)
+{
+    enum { LEFT = 84, ABOVE = 14, LEGEND = 12, TICS = 14, LINE = 17 };
+    const double top = plot_titles_end(titles, count, page->width) + ABOVE, bottom = top + page->height,
+                 right = page->width - LEGEND - page->legend;
+    if (!plot_begin(plot, path, page->width, (int)bottom + TICS + LINE * page->lines, error))
+        return false;
+    plot_titles(plot, titles, count);
+    plot_panel(plot, (LabelBox){LEFT, top, right, bottom}, right + LEGEND, top);
+    return true;
 }
 
 /* Writes tics at round numbers, as many as the length has room for; those of gnuplot over many decades. */
@@ -190,6 +246,15 @@ void plot_axis(Plot *plot, const char *which, double low, double high, bool loga
     fprintf(gnuplot, "set logscale %s\nset format %s '%%g'\n%s", which, which,
             which[0] == 'x' ? "set mxtics 10\n" : "");
     put_tics(which, axis, gnuplot);
+}
+
+void plot_tics_at(Plot *plot, const char *which, const double values[], int count)
+{
+    FILE *gnuplot = plot_commands(plot);
+    fprintf(gnuplot, "unset m%stics\nset %stics (", which, which);
+    for (int i = 0; i < count; i++)
+        fprintf(gnuplot, "%s'%.3g' %.9g", i ? ", " : "", values[i], values[i]);
+    fputs(")\n", gnuplot);
 }
 
 /* ---- series ---- */
@@ -270,8 +335,11 @@ void plot_function(Plot *plot, const char *title, const char *style, ...)
     add_entry(plot, entry, title);
 }
 
-void plot_bars(Plot *plot, const char *const titles[], const int colours[])
+void plot_bars(Plot *plot, const char *const titles[], const int colours[], size_t count)
 {
+    enum { LEAST = 4 }; /* bars that a panel has room for, so that one is not a wall */
+    const double middle = 0.5 * ((double)count - 1), half = 0.5 * fmax((double)count, LEAST) + 0.1;
+    plot_axis(plot, "x", middle - half, middle + half, false);
     fprintf(plot_commands(plot),
             "set style data histograms\nset style histogram rowstacked\nset style fill solid noborder\n"
             "set boxwidth 0.7\nset yrange [0:*]\n$b%d << EOD\n",
@@ -287,17 +355,26 @@ void plot_bars(Plot *plot, const char *const titles[], const int colours[])
     plot->open = true;
 }
 
-void plot_bar(Plot *plot, const double values[], const char *name, ...)
+void plot_bar(Plot *plot, const double values[], const char *name)
 {
-    va_list arguments;
-    va_start(arguments, name);
-    fputc('"', plot->gnuplot);
-    vfprintf(plot->gnuplot, name, arguments);
-    fputc('"', plot->gnuplot);
-    va_end(arguments);
+    fprintf(plot->gnuplot, "\"%s\"", name);
     for (int c = 0; c < plot->columns; c++)
         fprintf(plot->gnuplot, " %.6g", values[c]);
     fputc('\n', plot->gnuplot);
+}
+
+double plot_bar_width(const char *name)
+{
+    enum { LEAST = 72, GAP = 12 };
+    double widest = LEAST;
+    for (const char *line = name; line;) {
+        char text[256];
+        const char *end = strstr(line, "\\n");
+        snprintf(text, sizeof text, "%.*s", end ? (int)(end - line) : (int)strlen(line), line);
+        widest = fmax(widest, label_width(text, PLOT_FONT) + GAP);
+        line = end ? end + 2 : NULL;
+    }
+    return widest;
 }
 
 void plot_draw(Plot *plot, const char *nothing)
@@ -305,7 +382,7 @@ void plot_draw(Plot *plot, const char *nothing)
     FILE *gnuplot = plot_commands(plot);
     fflush(plot->series);
     if (!plot->entered && nothing)
-        fprintf(gnuplot, "unset logscale\nset label 1 '%s' at graph 0.1,0.5\n", nothing);
+        fprintf(gnuplot, "unset logscale\nset label '%s' at graph 0.1,0.5\n", nothing);
     if (plot->entered)
         fwrite(plot->entries, 1, plot->entries_size, gnuplot);
     else
@@ -319,7 +396,17 @@ void plot_draw(Plot *plot, const char *nothing)
 
 static const double POINT = 5;     /* half the side of a point's box, px */
 static const double LINE_STEP = 6; /* between the boxes along a line, px */
-static const double WIDE = 0.7;    /* of a letter, over the font size: DejaVu Sans has 0.6 in the mean */
+static const double PX = 4.0 / 3;  /* of a point */
+
+/* Advance widths of DejaVu Sans from the blank on, in 1/2048 of its size. */
+static const short advances[] = {
+    651,  821,  942,  1716, 1303, 1946, 1597, 563,  799,  799,  1024, 1716, 651,  739,  651,  690,
+    1303, 1303, 1303, 1303, 1303, 1303, 1303, 1303, 1303, 1303, 690,  690,  1716, 1716, 1716, 1087,
+    2048, 1401, 1405, 1430, 1577, 1294, 1178, 1587, 1540, 604,  604,  1343, 1141, 1767, 1532, 1612,
+    1235, 1612, 1423, 1300, 1251, 1499, 1401, 2025, 1403, 1251, 1403, 799,  690,  799,  1716, 1024,
+    1024, 1255, 1300, 1126, 1300, 1260, 721,  1300, 1298, 569,  569,  1186, 569,  1995, 1298, 1253,
+    1300, 1300, 842,  1067, 803,  1298, 1212, 1675, 1212, 1212, 1075, 1303, 690,  1303, 1716};
+enum { FIRST_LETTER = ' ', LETTERS = sizeof advances / sizeof *advances, WIDEST = 2048 };
 
 static bool label_boxes_overlap(const LabelBox *a, const LabelBox *b)
 {
@@ -328,7 +415,11 @@ static bool label_boxes_overlap(const LabelBox *a, const LabelBox *b)
 
 double label_width(const char *text, double font)
 {
-    return WIDE * font * (double)strlen(text);
+    double width = 0;
+    for (const unsigned char *c = (const unsigned char *)text; *c; c++)
+        if ((*c & 0xc0) != 0x80) /* the first byte of a letter */
+            width += *c - FIRST_LETTER < LETTERS ? advances[*c - FIRST_LETTER] : WIDEST;
+    return PX * font * width / 2048;
 }
 
 void label_field_point(LabelField *field, double x, double y)
@@ -380,11 +471,12 @@ static bool place_around(const LabelField *field, double x, double y, double far
     return false;
 }
 
-bool label_place(LabelField *field, double x, double y, double width, double height, LabelBox *place)
+bool label_place(LabelField *field, double x, double y, double width, double height, double farthest,
+                 LabelBox *place)
 {
-    enum { NEAREST = 8, STEP = 7, FARTHEST = 120 }; /* from the point, px */
+    enum { NEAREST = 8, STEP = 7 }; /* from the point, px */
     for (int lines = 1; lines >= 0; lines--)
-        for (int far = NEAREST; far < FARTHEST; far += STEP)
+        for (int far = NEAREST; far < farthest; far += STEP)
             if (place_around(field, x, y, far, lines, width, height, place)) {
                 if (field->taken_count < LABEL_TAKEN_MAX)
                     field->taken[field->taken_count++] = *place;
@@ -398,18 +490,18 @@ void plot_keep_off(Plot *plot, double x0, double y0, double x1, double y1)
     label_field_line(plot->field, x_of(plot, x0), y_of(plot, y0), x_of(plot, x1), y_of(plot, y1));
 }
 
-bool plot_label(Plot *plot, double x, double y, const char *text)
+bool plot_label(Plot *plot, double x, double y, const char *text, double farthest)
 {
-    static const double FONT = 8, HEIGHT = 11;
+    static const double FONT = 8, HEIGHT = 12, GAP = 4; /* a blank between names side by side */
     const double px = x_of(plot, x), py = y_of(plot, y), w = plot->width, h = plot->height;
     LabelBox place;
-    if (!label_place(plot->field, px, py, label_width(text, FONT), HEIGHT, &place))
+    if (!label_place(plot->field, px, py, label_width(text, FONT) + GAP, HEIGHT, farthest, &place))
         return false;
     plot_text(plot, 0.5 * (place.left + place.right), 0.5 * (place.top + place.bottom), "center", FONT,
               "#000000", text);
     const double to_x = fmin(fmax(px, place.left), place.right),
                  to_y = fmin(fmax(py, place.top), place.bottom);
-    if (hypot(to_x - px, to_y - py) > 2 * HEIGHT)
+    if (hypot(to_x - px, to_y - py) > HEIGHT)
         fprintf(plot->gnuplot,
                 "set arrow from screen %.5f,%.5f to screen %.5f,%.5f nohead lw 0.5 lc '#8795a3'\n", px / w,
                 1 - py / h, to_x / w, 1 - to_y / h);

@@ -1,5 +1,6 @@
-/* A chart drawn by gnuplot over a pipe, as SVG or PNG by the file's ending. The file appears complete or
-   not at all. Places and sizes are in pixels from the top left corner of the picture. */
+/* A chart drawn by gnuplot over a pipe, as SVG or PNG by the file's ending: the same picture in both. The
+   file appears complete or not at all. Places and sizes are in pixels from the top left corner of the
+   picture, fonts in points of 4/3 px. */
 #ifndef APP_BENCH_PLOT_H
 #define APP_BENCH_PLOT_H
 
@@ -29,11 +30,12 @@ typedef struct LabelField {
 void label_field_point(LabelField *field, double x, double y);
 void label_field_line(LabelField *field, double x0, double y0, double x1, double y1);
 
-/* Finds the place nearest to the point for a label of the given size, and marks the place as taken.
-   Returns false if there is no room. */
-bool label_place(LabelField *field, double x, double y, double width, double height, LabelBox *place);
+/* Finds the place nearest to the point for a label of the given size, up to `farthest` px away, and marks the
+   place as taken. Returns false if there is no room. */
+bool label_place(LabelField *field, double x, double y, double width, double height, double farthest,
+                 LabelBox *place);
 
-/* Estimates the width of a text in a font of `font` pixels; rather too wide. */
+/* Width of a text in DejaVu Sans, px; rather too wide for letters beyond ASCII. */
 double label_width(const char *text, double font);
 
 typedef struct PlotAxis {
@@ -50,7 +52,7 @@ typedef struct Plot {
     LabelBox panel;
     PlotAxis axis[2]; /* x, y */
     LabelField *field;
-    int blocks, labels;
+    int blocks;
     bool open; /* a series takes points, */
     int points, columns;
     char entry[512], title[512];
@@ -87,11 +89,30 @@ void plot_set(Plot *plot, const char *name, const char *text, const char *option
 void plot_text(Plot *plot, double x, double y, const char *align, double font, const char *colour,
                const char *text);
 
-/* Puts a title and smaller lines below at the top of the picture, in its middle. */
-void plot_titles(Plot *plot, const char *const lines[], int count);
+/* Puts a title and smaller lines below at the top of the picture, in its middle; lines wider than the
+   picture go on in the next. Returns where the lines end, px. plot_titles_end: the same, before a picture of
+   that width begins. */
+double plot_titles(Plot *plot, const char *const lines[], int count);
+double plot_titles_end(const char *const lines[], int count, int width);
 
-/* Places the next panel, and the top left corner of its legend. */
+/* Places the next panel, and the top left corner of its legend, whose lines are PLOT_LEGEND_LINE high. */
+enum { PLOT_FONT = 9, PLOT_LEGEND_FONT = 9, PLOT_LEGEND_LINE = 16 };
 void plot_panel(Plot *plot, LabelBox panel, double legend_left, double legend_top);
+
+/* Width of a legend with the longest title, px. */
+double plot_legend_width(const char *widest);
+
+/* A picture of one panel, px: the whole width; height of the panel; width of the legend beside; room for the
+   lines of text below. */
+typedef struct PlotPage {
+    int width, height;
+    double legend;
+    int lines;
+} PlotPage;
+
+/* Begins a picture of one panel with titles above, and places the panel. */
+bool plot_begin_page(Plot *plot, const char *path, const char *const titles[], int count,
+                     const PlotPage *page, Error *error);
 
 /* Sets the range of axis "x" or "y". Tics of a logarithmic axis of less than some decades are round numbers.
  */
@@ -109,16 +130,25 @@ void plot_drop(Plot *plot);
 __attribute__((format(printf, 3, 4))) void plot_function(Plot *plot, const char *title, const char *style,
                                                          ...);
 
-/* Begins stacked bars with these titles (NULL after the last), one bar after the other. */
-void plot_bars(Plot *plot, const char *const titles[], const int colours[]);
-__attribute__((format(printf, 3, 4))) void plot_bar(Plot *plot, const double values[], const char *name, ...);
+/* Puts tics of an axis at the values only. */
+void plot_tics_at(Plot *plot, const char *which, const double values[], int count);
+
+/* Begins `count` stacked bars with these titles (NULL after the last), one bar after the other. Lines of a
+   bar's name are separated by "\\n". */
+void plot_bars(Plot *plot, const char *const titles[], const int colours[], size_t count);
+void plot_bar(Plot *plot, const double values[], const char *name);
+
+/* Width of a bar with the name, px. */
+double plot_bar_width(const char *name);
 
 /* Draws the panel, "no error more than 0" or other words if it has no series. */
 void plot_draw(Plot *plot, const char *nothing);
 
 /* Labels in a panel whose axes are set: of points, off all earlier points, and off the lines to keep off
-   where possible. A distant label has a line to its point. plot_label returns false if there is no room. */
+   where possible. A distant label has a line to its point. plot_label returns false if there is no room
+   within `farthest` px. */
+enum { PLOT_LABEL_NEAR = 18, PLOT_LABEL_FAR = 120 };
 void plot_keep_off(Plot *plot, double x0, double y0, double x1, double y1);
-bool plot_label(Plot *plot, double x, double y, const char *text);
+bool plot_label(Plot *plot, double x, double y, const char *text, double farthest);
 
 #endif

@@ -18,8 +18,9 @@ static bool probe_plot(const char *path, const char *title, Error *error);
 /* Fills in the path of the table: `path` itself, or FILE.csv beside a plot. */
 static void probe_plot_table(const char *path, char table[1024]);
 
-/* Pixels; points of a curve; names in a panel's key; panels. */
-enum { WIDTH = 900, PANEL_HEIGHT = 280, TITLE_HEIGHT = 40, POINTS = 900, NAMES_MAX = 12, PLOTS_MAX = 6 };
+/* Pixels; points of a curve; names in a panel's key; panels. LEGEND: from a panel to its names. */
+enum { WIDTH = 900, PANEL_HEIGHT = 230, PITCH = 260, LEFT = 84, ABOVE = 14, BELOW = 56, LEGEND = 12 };
+enum { POINTS = 900, NAMES_MAX = 12, PLOTS_MAX = 6 };
 enum { CURVES_MAX = 200 }; /* a panel: gnuplot takes minutes over thousands */
 
 typedef struct PlotLine {
@@ -238,12 +239,54 @@ static void put_range(const ProbeRows *table, const char *unit, Plot *plot)
     plot_axis(plot, "y", low - wide, high + wide, false);
 }
 
+/* Fills in the quantities of a unit's probes, such as "pressure, Pa": last parts of names, without the mean
+   over an area. The unit alone if there are many. */
+static void quantity_of(const ProbeRows *table, const char *unit, char text[128])
+{
+    enum { QUANTITIES = 3 };
+    char name[QUANTITIES][96];
+    int count = 0;
+    for (const PlotLine *line = table->line; line < table->line + table->count && count <= QUANTITIES;
+         line++) {
+        const char *dot = strrchr(line->name, '.');
+        char word[96];
+        bool known = strcmp(line->unit, unit) != 0 || line->curve.count == 0;
+        snprintf(word, sizeof word, "%s", dot ? dot + 1 : line->name);
+        char *mean = strstr(word, "_mean");
+        if (mean)
+            *mean = '\0';
+        for (int k = 0; k < count && k < QUANTITIES; k++)
+            known |= strcmp(name[k], word) == 0;
+        if (!known && count++ < QUANTITIES)
+            snprintf(name[count - 1], sizeof name[0], "%s", word);
+    }
+    size_t used = 0;
+    for (int k = 0; k < count && count <= QUANTITIES; k++)
+        used += (size_t)snprintf(text + used, 128 - used, "%s%.30s",
+                                 k == 0           ? ""
+                                 : k + 1 == count ? " and "
+                                                  : ", ",
+                                 name[k]);
+    snprintf(text + used, 128 - used, "%s%s", used > 0 && *unit ? ", " : "", unit);
+}
+
+/* Returns the width of the key with the widest name, px. */
+static double key_width(const ProbeRows *table)
+{
+    double widest = plot_legend_width("and 999 more");
+    for (const PlotLine *line = table->line; line < table->line + table->count; line++)
+        if (line->drawn)
+            widest = fmax(widest, plot_legend_width(line->name));
+    return widest;
+}
+
 static void draw_panel(const ProbeRows *table, const char *unit, Plot *plot)
 {
     int lines = 0, more = 0;
-    char others[32];
+    char others[32], quantity[128];
     put_range(table, unit, plot);
-    plot_set(plot, "ylabel", unit, "");
+    quantity_of(table, unit, quantity);
+    plot_set(plot, "ylabel", quantity, " noenhanced");
     for (int k = 0; k < table->count; k++) {
         const PlotLine *line = &table->line[k];
         if (strcmp(line->unit, unit) != 0 || line->curve.count == 0)
@@ -271,22 +314,23 @@ static bool tell_nothing(const char *path)
 static bool draw(ProbeRows *table, const char *path, const char *title, Error *error)
 {
     Plot plot = {.gnuplot = NULL};
-    char layout[64];
     int first[PLOTS_MAX];
     const int panels = panels_of(table, first);
+    const double top = plot_titles_end(&title, 1, WIDTH) + ABOVE;
     if (panels == 0)
         return tell_nothing(path);
-    if (!plot_begin(&plot, path, WIDTH, TITLE_HEIGHT + PANEL_HEIGHT * panels, error))
-        return false;
     choose(table, first, panels, path);
-    snprintf(layout, sizeof layout, "multiplot layout %d,1 title", panels);
-    plot_set(&plot, layout, title, " noenhanced");
-    fputs("set key outside right top noenhanced samplen 2 font ',9'\nset rmargin 30\nset lmargin 12\n",
-          plot_commands(&plot));
-    plot_set(&plot, "xlabel", "time, s", "");
-    put_times(table, &plot);
-    for (int p = 0; p < panels; p++)
+    const double right = fmax(WIDTH / 2, WIDTH - LEGEND - key_width(table));
+    if (!plot_begin(&plot, path, WIDTH, (int)top + PITCH * (panels - 1) + PANEL_HEIGHT + BELOW, error))
+        return false;
+    plot_titles(&plot, &title, 1);
+    for (int p = 0; p < panels; p++) {
+        const double from = top + p * PITCH;
+        plot_panel(&plot, (LabelBox){LEFT, from, right, from + PANEL_HEIGHT}, right + LEGEND, from);
+        put_times(table, &plot);
+        plot_set(&plot, "xlabel", p + 1 == panels ? "time, s" : "", "");
         draw_panel(table, table->line[first[p]].unit, &plot);
+    }
     return plot_end(&plot, error);
 }
 

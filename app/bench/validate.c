@@ -33,7 +33,7 @@ void case_watch_outcome(CaseWatch *watch, const CaseResult *result, Outcome *out
         outcome_not_run(result->failure, outcome);
 }
 
-enum { WIDTH = 820, HEIGHT = 460 };
+enum { WIDTH = 820, HEIGHT = 390 }; /* of the picture and of its panel, px */
 
 void validate_print_head(FILE *file)
 {
@@ -143,6 +143,12 @@ static bool has_points(const Curve *curve)
     return false;
 }
 
+/* Names a curve of a case: curve and method. */
+static void curve_title(const CaseResult *result, int curve, char title[128])
+{
+    snprintf(title, 128, "%s, %s", result->of->plot.found[curve], result->scene.world.method);
+}
+
 static void put_found(const CaseResult *results, size_t count, Plot *plot)
 {
     const CasePlot *of = &results[0].of->plot;
@@ -150,9 +156,9 @@ static void put_found(const CaseResult *results, size_t count, Plot *plot)
     for (size_t i = 0; i < count; i++)
         for (int c = 0; c < CASE_CURVES && of->found[c]; c++) {
             char title[128];
-            snprintf(title, sizeof title, "%s, %s", of->found[c], results[i].scene.world.method);
+            curve_title(&results[i], c, title);
             lines += has_points(&results[i].run.found[c]);
-            plot_series(plot, title, "with %s lt %d", of->dots ? "points pt 7 ps 0.3" : "lines lw 2", lines);
+            plot_series(plot, title, "with %s lt %d", of->dots ? "points pt 7 ps 0.5" : "lines lw 2", lines);
             put_curve(plot, &results[i].run.found[c]);
         }
 }
@@ -183,16 +189,33 @@ static void put_range(const CaseResult *results, size_t count, Plot *plot)
         plot_axis(plot, "y", low - 1, high + 1, false);
 }
 
+static double legend_width(const CaseResult *results, size_t count)
+{
+    const CasePlot *of = &results[0].of->plot;
+    double widest = 0;
+    char title[128];
+    for (int c = 0; c < CASE_CURVES && of->expected[c]; c++)
+        widest = fmax(widest, plot_legend_width(of->expected[c]));
+    for (size_t i = 0; i < count; i++)
+        for (int c = 0; c < CASE_CURVES && of->found[c]; c++) {
+            curve_title(&results[i], c, title);
+            widest = fmax(widest, plot_legend_width(title));
+        }
+    return widest;
+}
+
 bool validate_plot(const CaseResult *results, size_t count, const char *path, Error *error)
 {
     const Case *of = results[0].of;
     Plot plot = {.gnuplot = NULL};
     char title[256];
-    if (!plot_begin(&plot, path, WIDTH, HEIGHT, error))
-        return false;
+    const char *const titles[] = {title};
+    const PlotPage page = {
+        .width = WIDTH, .height = HEIGHT, .legend = legend_width(results, count), .lines = 2};
     snprintf(title, sizeof title, "%s: %zu particle%s", of->help, results[0].particles,
              plural(results[0].particles));
-    plot_set(&plot, "title", title, "");
+    if (!plot_begin_page(&plot, path, titles, 1, &page, error))
+        return false;
     plot_set(&plot, "xlabel", of->plot.x, "");
     plot_set(&plot, "ylabel", of->plot.y, "");
     put_range(results, count, &plot);

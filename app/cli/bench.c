@@ -61,8 +61,6 @@ static bool plan_table(BenchPlan *plan, Error *error)
     if (args->scene_count || args->sweep_count || options_of_bench(args)->play)
         return error_set(error,
                          "slosh bench: --table brings its own scenes and sweeps; leave the others out");
-    if (args->output && !plot_check_name(args->output, error))
-        return false;
     plan->scene_count = bench_table_scenes(plan->table, &plan->scenes);
     plan->sweep_count = bench_table_sweeps(plan->table, plan->sweeps);
     plan->settings.count = 0;
@@ -108,8 +106,10 @@ static bool bench_plan_make(const Args *args, BenchPlan *plan, Error *error)
     memcpy(plan->sweeps, args->sweeps, sizeof plan->sweeps);
     if (own->table && !plan_table(plan, error))
         return false;
-    if (args->output && !own->table)
-        return error_set(error, "slosh bench: -o is the chart of a --table; name one, or leave it out");
+    if (args->output && (own->micro || own->ablate || own->play))
+        return error_set(error, "slosh bench: -o draws the stages of frames, or a --table; leave it out");
+    if (args->output && !plot_check_name(args->output, error))
+        return false;
     if (plan->scene_count == 0) {
         plan->scenes = default_scenes;
         plan->scene_count = own->micro ? 1 : sizeof default_scenes / sizeof *default_scenes;
@@ -624,8 +624,10 @@ static bool report(const BenchPlan *plan, BenchResult *results, Tally *tally, bo
         note_failure(plan, tally->done, error, &results[tally->done]);
         tally->done++;
     }
-    bool reported = !ok || interrupted() || !plan->table || tally->measured == 0 ||
-                    show_table(plan, results, tally->done, &reason);
+    bool reported =
+        !ok || interrupted() || tally->measured == 0 ||
+        (plan->table ? show_table(plan, results, tally->done, &reason)
+                     : !args->output || bench_stages_draw(results, tally->done, args->output, &reason));
     if (args->json && tally->done > 0)
         reported &= bench_write_json(results, tally->done, args->json, &reason);
     if (ok)
@@ -712,7 +714,7 @@ static int run_command(const Args *args)
 
 /* clang-format off */
 static const OptionRow options[] = {
-    ROW_OUTPUT("OUT", .files = files_replaced, .help = "the chart of --table: OUT.svg or OUT.png"),
+    ROW_OUTPUT("OUT", .files = files_replaced, .help = "a chart, OUT.svg or OUT.png: the stages of each case, or the --table"),
     {"--table", "NAME", OPTION_TEXT, OWN(BenchOptions, table), .help = "a published table again, beside its figures", .names = bench_table_choice},
     ROW_TIME(0, "measure from the first frame at or after that time on (0)"),
     ROW_FRAMES(BenchOptions),

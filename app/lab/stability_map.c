@@ -278,15 +278,17 @@ json_t *stable_json(const StableMap *map, const char *failure)
 /* Draws the map of `slosh stability`: each cell's largest stable step, and the failures above. Over one
    axis: the steps, with the limits of theory. */
 
+/* px; HEADING: from the titles to a panel; LEGEND: from the top of a panel */
 enum {
-    PANEL_LEFT = 78,
+    PANEL_LEFT = 84,
     PANEL_WIDTH = 450,
     PANEL_PITCH = 560,
-    PANEL_TOP = 84,
+    HEADING = 38,
     PANEL_HEIGHT = 370,
-    LEGEND = 512, /* from the top of a row of panels */
-    LINE_HEIGHT = 14,
-    WIDTH_OF_ONE = 640
+    LEGEND = PANEL_HEIGHT + 50,
+    BAR_GAP = 18,
+    BAR_WIDTH = 14,
+    RIGHT = 112 /* of the last panel: the bar of colours */
 };
 
 static const char *const kind_colours[OUTCOME_COUNT] = {
@@ -296,12 +298,16 @@ static const char *const kind_colours[OUTCOME_COUNT] = {
     [OUTCOME_BLOWN_UP] = "#c0392b",
 };
 
+enum { NOTE = 320 };
+
 typedef struct Drawing {
     const StableMap *map;
     Plot *plot;
     int series;         /* of the present panel */
+    double top;         /* of the first row of panels, px */
     int row;            /* height of a row of panels with legends, px */
     double least, most; /* of the steps that hold, s */
+    char title[128], note[NOTE];
 } Drawing;
 
 /* The searched cells of the panel's series, one after the other; NULL after the last. */
@@ -336,10 +342,20 @@ static void colour_of(const Drawing *d, double step, char colour[8])
     snprintf(colour, 8, "#%02x%02x%02x", (unsigned)rgb[0], (unsigned)rgb[1], (unsigned)rgb[2]);
 }
 
+/* "viscosity of water, Pa s (fluids[0].viscosity)" */
 static void put_axis_title(const Drawing *d, const char *which, const StableAxis *axis)
 {
-    char title[160];
-    snprintf(title, sizeof title, "%.95s%s%.32s", axis->key, *axis->row->unit ? ", " : "", axis->row->unit);
+    const WorldDef *def = &d->map->plan->scene.world;
+    const char *unit = axis->row->unit;
+    char title[256], name[64];
+    int fluid = -1;
+    snprintf(name, sizeof name, "%s", key_last_part(axis->key));
+    for (char *c = name; *c; c++)
+        *c = *c == '_' ? ' ' : *c;
+    const bool of_fluid = sscanf(axis->key, "fluids[%d]", &fluid) == 1 && fluid >= 0 &&
+                          fluid < def->fluid_count && *def->fluids[fluid].name;
+    snprintf(title, sizeof title, "%s%s%s%s%s (%.96s)", name, of_fluid ? " of " : "",
+             of_fluid ? def->fluids[fluid].name : "", *unit ? ", " : "", unit, axis->key);
     plot_set(d->plot, which, title, " noenhanced");
 }
 
@@ -406,7 +422,7 @@ static void put_cell_tics(const Drawing *d, const char *which, const StableAxis 
     double widest = 0;
     FILE *gnuplot = plot_commands(d->plot);
     for (int i = 0; i < axis->count; i++)
-        widest = fmax(widest, which[0] == 'x' ? label_width(axis->text[i], 11) : 14);
+        widest = fmax(widest, which[0] == 'x' ? label_width(axis->text[i], PLOT_FONT) : 14);
     const int each = (int)fmax(1, ceil((widest + 4) * axis->count / capacity));
     fprintf(gnuplot, "set %srange [0:%d]\nset %stics (", which, axis->count, which);
     for (int i = 0; i < axis->count; i += each)
@@ -464,6 +480,50 @@ static void in_cell(const Drawing *d, const StableCellFound *found, int sample, 
     *y = found->cell.at[1] + 0.25;
 }
 
+/* Writes a step beside the bar of colours. */
+static void put_bar_tic(const Drawing *d, LabelBox bar, double step)
+{
+    const double part = log(step / d->least) / log(d->most / d->least);
+    char text[32];
+    snprintf(text, sizeof text, "%.3g", 1000 * step);
+    plot_text(d->plot, bar.right + 6, bar.bottom + part * (bar.top - bar.bottom), "left", PLOT_LEGEND_FONT,
+              "#2a3440", text);
+}
+
+/* Draws the bar of colours beside the last panel of a row: tics at both ends, and at 1, 2 and 5 in between
+   if there is room. */
+static void put_bar(const Drawing *d)
+{
+    enum { SLICES = 64 };
+    const LabelBox *panel = &d->plot->panel;
+    const LabelBox bar = {panel->right + BAR_GAP, panel->top + 26, panel->right + BAR_GAP + BAR_WIDTH,
+                          panel->bottom};
+    const double w = d->plot->width, h = d->plot->height, range = d->most / d->least,
+                 apart = range > 1 ? pow(range, 16 / (bar.bottom - bar.top)) : 2;
+    if (!(range > 1.001))
+        return;
+    for (int i = 0; i < SLICES; i++) {
+        char colour[8];
+        const double low = (double)i / SLICES, high = (i + 1.0) / SLICES; /* up to the top: no seams */
+        colour_of(d, d->least * pow(range, 0.5 * (low + high)), colour);
+        fprintf(
+            plot_commands(d->plot),
+            "set object rectangle from screen %.5f,%.5f to screen %.5f,%.5f fc rgb '%s' fs solid 1 noborder\n",
+            bar.left / w, 1 - (bar.bottom + low * (bar.top - bar.bottom)) / h, bar.right / w, 1 - bar.top / h,
+            colour);
+    }
+    plot_text(d->plot, bar.left, panel->top + 2, "left", 8, "#2a3440", "longest step");
+    plot_text(d->plot, bar.left, panel->top + 14, "left", 8, "#2a3440", "that holds, ms");
+    put_bar_tic(d, bar, d->least);
+    put_bar_tic(d, bar, d->most);
+    for (double power = pow(10, floor(log10(d->least))); power < d->most; power *= 10)
+        for (int k = 0; k < 3; k++) {
+            const double step = power * (double[]){1, 2, 5}[k];
+            if (step > d->least * apart && step < d->most / apart)
+                put_bar_tic(d, bar, step);
+        }
+}
+
 static void plot_map(const Drawing *d)
 {
     const StablePlan *plan = d->map->plan;
@@ -472,6 +532,8 @@ static void plot_map(const Drawing *d)
     put_axis_title(d, "xlabel", &plan->axis[0]);
     put_axis_title(d, "ylabel", &plan->axis[1]);
     put_cells(d);
+    if (d->series % 2 == 1 || d->series + 1 == plan->series_count)
+        put_bar(d);
     plot_function(d->plot, NULL, "-1");
     plot_kinds(d, in_cell);
 }
@@ -558,33 +620,47 @@ static void plot_line(const Drawing *d)
 
 /* ---- the whole picture ---- */
 
-static void put_titles(const Drawing *d)
+/* Fills in the meaning of numbers, signs and squares on the map. */
+static void map_note(const Drawing *d, char note[NOTE])
+{
+    bool theory = false, none = false;
+    StableSpread all = {.cells = 0};
+    size_t used = 0;
+    for (int s = 0; s < d->map->plan->series_count; s++) {
+        const StableSpread of = stable_spread(d->map, s);
+        theory |= of.ratios > 0;
+        none |= of.ratios == 0;
+        all.uneven += of.uneven;
+        all.never += of.never;
+        all.always += of.always;
+    }
+    used += (size_t)snprintf(note + used, NOTE - used, "number: that step%s%s",
+                             theory ? " over the step of theory" : ", ms",
+                             theory && none ? " (ms for a method without one)" : "");
+    if (all.uneven > 0)
+        used += (size_t)snprintf(note + used, NOTE - used, "; *: from some start a longer one holds");
+    if (all.always > 0)
+        used += (size_t)snprintf(note + used, NOTE - used, "; >: the longest that was tried");
+    if (all.never > 0)
+        used += (size_t)snprintf(note + used, NOTE - used, "; none: no step holds");
+    snprintf(note + used, NOTE - used, "; squares: what is at 1.09, 1.3, 1.54 and 2 times the step");
+}
+
+static void make_titles(Drawing *d)
 {
     const StablePlan *plan = d->map->plan;
-    const int most = d->plot->width / 8;
-    char line[2][256], cut[2][256];
-    const char *const titles[] = {cut[0], cut[1]};
-    snprintf(line[0], sizeof line[0], "%.80s: the largest step that holds %.3g s", plan->scene_name,
+    snprintf(d->title, sizeof d->title, "%.80s: the longest step that holds %.3g s", plan->scene_name,
              plan->time);
     if (plan->axis_count < 2)
-        snprintf(line[1], sizeof line[1], "squares: what is at 1.09, 1.3, 1.54 and 2 times that step");
+        snprintf(d->note, NOTE, "squares: what is at 1.09, 1.3, 1.54 and 2 times that step");
     else
-        snprintf(
-            line[1], sizeof line[1],
-            "colour: %.3g ms (pale) to %.3g ms (blue); number: over that of theory, of methods without sound "
-            "ms; squares: what is at 1.09, 1.3, 1.54 and 2 times the step",
-            1000 * d->least, 1000 * d->most);
-    for (int i = 0; i < 2; i++)
-        snprintf(cut[i], sizeof cut[i], "%.*s", most * (i ? 3 : 2) / 2, line[i]);
-    plot_titles(d->plot, titles, 2);
+        map_note(d, d->note);
 }
 
 static void draw_series(const Drawing *d)
 {
-    const int row = d->series / 2, left = PANEL_LEFT + d->series % 2 * PANEL_PITCH,
-              top = PANEL_TOP + row * d->row;
-    plot_panel(d->plot, (LabelBox){left, top, left + PANEL_WIDTH, top + PANEL_HEIGHT}, left,
-               top + LEGEND - PANEL_TOP);
+    const double left = PANEL_LEFT + d->series % 2 * PANEL_PITCH, top = d->top + d->series / 2 * d->row;
+    plot_panel(d->plot, (LabelBox){left, top, left + PANEL_WIDTH, top + PANEL_HEIGHT}, left, top + LEGEND);
     put_heading(d, left, top);
     if (d->map->plan->axis_count == 2)
         plot_map(d);
@@ -610,12 +686,15 @@ bool stable_draw(const StableMap *map, const char *path, Error *error)
     Plot plot = {.gnuplot = NULL};
     const int series = map->plan->series_count;
     Drawing d = {.map = map, .plot = &plot};
-    d.row = LEGEND + legend_lines(&d) * LINE_HEIGHT + 16;
+    const char *const titles[] = {d.title, d.note};
+    const int width = PANEL_LEFT + (series > 1 ? PANEL_PITCH : 0) + PANEL_WIDTH + RIGHT;
+    d.row = HEADING + LEGEND + legend_lines(&d) * PLOT_LEGEND_LINE;
     find_range(&d);
-    if (!plot_begin(&plot, path, series > 1 ? PANEL_LEFT + PANEL_PITCH + PANEL_WIDTH + 22 : WIDTH_OF_ONE,
-                    (series + 1) / 2 * d.row, error))
+    make_titles(&d);
+    d.top = plot_titles_end(titles, 2, width) + HEADING;
+    if (!plot_begin(&plot, path, width, (int)(d.top - HEADING) + (series + 1) / 2 * d.row + 16, error))
         return false;
-    put_titles(&d);
+    plot_titles(&plot, titles, 2);
     for (d.series = 0; d.series < series; d.series++)
         draw_series(&d);
     return plot_end(&plot, error);

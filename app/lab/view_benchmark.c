@@ -268,7 +268,7 @@ json_t *view_row_json(const Trials *rows, int i)
 /* The chart of `slosh chart --views`. */
 
 /* px */
-enum { WIDTH = 860, HEIGHT = 560, LEFT = 84, TOP = 76, RIGHT = 700, BOTTOM = 500 };
+enum { WIDTH = 880, PANEL_HEIGHT = 430 };
 
 static bool drawn(const ViewRow *row)
 {
@@ -290,7 +290,7 @@ static void put_axes(Plot *plot, const Trials *rows)
     double low[2] = {INFINITY, INFINITY}, high[2] = {0, 0};
     for (int i = 0; i < rows->count; i++)
         for (int k = 0; k < 2 && drawn(view_row(rows, i)); k++) {
-            const double value = k ? view_row(rows, i)->error : view_row(rows, i)->ms;
+            const double value = k ? 100 * view_row(rows, i)->error : view_row(rows, i)->ms;
             low[k] = fmin(low[k], value);
             high[k] = fmax(high[k], value);
         }
@@ -313,7 +313,17 @@ static void plot_pictures(Plot *plot, const Trials *rows, int first, int colour)
     plot_series(plot, view, "with points pt 7 ps 0.9 lt %d", colour);
     for (int i = first; i < rows->count; i++)
         if (drawn(view_row(rows, i)) && strcmp(view_row(rows, i)->view, view) == 0)
-            plot_point(plot, view_row(rows, i)->ms, view_row(rows, i)->error);
+            plot_point(plot, view_row(rows, i)->ms, 100 * view_row(rows, i)->error);
+}
+
+/* Labels other pictures if there is room beside the point. */
+static void label_others(Plot *plot, const Trials *rows)
+{
+    for (int i = 0; i < rows->count; i++) {
+        const ViewRow *row = view_row(rows, i);
+        if (drawn(row) && !view_on_front(rows, i))
+            plot_label(plot, row->ms, 100 * row->error, row->settings, PLOT_LABEL_NEAR);
+    }
 }
 
 /* Draws and labels the front of that view, where there is room. */
@@ -321,35 +331,36 @@ static void plot_front(Plot *plot, const Trials *rows, int first, int colour)
 {
     const ViewRow *front[VIEW_ROWS_MAX];
     int count = 0;
-    char title[NAME_SIZE + sizeof ", its best"];
     for (int i = first; i < rows->count; i++)
         if (drawn(view_row(rows, i)) && strcmp(view_row(rows, i)->view, view_row(rows, first)->view) == 0 &&
             view_on_front(rows, i))
             front[count++] = view_row(rows, i);
     qsort(front, (size_t)count, sizeof *front, by_time);
     for (int i = 0; i < count; i++)
-        plot_label(plot, front[i]->ms, front[i]->error, front[i]->settings);
-    snprintf(title, sizeof title, "%s, its best", view_row(rows, first)->view);
-    plot_series(plot, title, "with lines lw 1.5 dt 2 lt %d", colour);
+        plot_label(plot, front[i]->ms, 100 * front[i]->error, front[i]->settings, PLOT_LABEL_FAR);
+    plot_series(plot, NULL, "with lines lw 1.5 dt 2 lt %d", colour);
     for (int i = 0; i < count; i++)
-        plot_point(plot, front[i]->ms, front[i]->error);
+        plot_point(plot, front[i]->ms, 100 * front[i]->error);
 }
 
 bool view_rows_draw(const Trials *rows, const ViewWords *words, const char *path, Error *error)
 {
     const char *const titles[] = {words->title, words->note, words->renderer};
     Plot plot = {.gnuplot = NULL};
-    if (!plot_begin(&plot, path, WIDTH, HEIGHT, error))
+    static const char front[] = "best for its time";
+    const PlotPage page = {
+        .width = WIDTH, .height = PANEL_HEIGHT, .legend = plot_legend_width(front), .lines = 2};
+    if (!plot_begin_page(&plot, path, titles, 3, &page, error))
         return false;
-    plot_titles(&plot, titles, 3);
-    plot_panel(&plot, (LabelBox){LEFT, TOP, RIGHT, BOTTOM}, RIGHT + 12, TOP);
     plot_set(&plot, "xlabel", "time a picture, ms", "");
-    plot_set(&plot, "ylabel", "error, rms of linear light over white", "");
+    plot_set(&plot, "ylabel", "error: rms of linear light, % of white", "");
     put_axes(&plot, rows);
     for (int fronts = 0; fronts < 2; fronts++) /* labels keep off the points of all views */
         for (int i = 0, colour = 0; i < rows->count; i++)
             if (opens_view(rows, i))
                 (fronts ? plot_front : plot_pictures)(&plot, rows, i, ++colour);
+    label_others(&plot, rows);
+    plot_function(&plot, front, "NaN with lines lw 1.5 dt 2 lc '#2a3440'");
     plot_draw(&plot, "no error more than 0");
     return plot_end(&plot, error);
 }

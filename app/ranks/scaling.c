@@ -170,27 +170,6 @@ static bool has_bars(const ScalingPicture *picture, const ScalingSeries *series)
     return series->kind == SCALING_STRONG || kind_count(picture, SCALING_STRONG) == 0;
 }
 
-/* Draws compute, exchange, balance and wait in ms, mean over ranks; a gap after each series. */
-static void draw_bars(const ScalingPicture *picture, Plot *plot)
-{
-    static const char *const titles[] = {"compute", "exchange", "balance", "wait", NULL};
-    static const int colours[] = {1, 2, 3, 10};
-    plot_bars(plot, titles, colours);
-    for (int s = 0; s < picture->count; s++) {
-        const ScalingSeries *series = &picture->series[s];
-        if (!has_bars(picture, series))
-            continue;
-        for (int k = 0; k < series->count; k++) {
-            const CostSample *of = &picture->runs[series->run[k]].cost;
-            plot_bar(plot,
-                     (double[]){1e3 * of->compute, 1e3 * of->exchange, 1e3 * of->balance, 1e3 * of->wait},
-                     "%d\\n%.3g k", of->ranks, 1e-3 * of->particles);
-        }
-        plot_bar(plot, (double[4]){0}, " ");
-    }
-    plot_draw(plot, NULL);
-}
-
 static int bar_count(const ScalingPicture *picture)
 {
     int bars = 0;
@@ -198,6 +177,29 @@ static int bar_count(const ScalingPicture *picture)
         if (has_bars(picture, &picture->series[s]))
             bars += picture->series[s].count + 1;
     return bars;
+}
+
+/* Draws compute, exchange, balance and wait in ms, mean over ranks; a gap after each series. */
+static void draw_bars(const ScalingPicture *picture, Plot *plot)
+{
+    static const char *const titles[] = {"compute", "exchange", "balance", "wait", NULL};
+    static const int colours[] = {1, 2, 3, 10};
+    plot_bars(plot, titles, colours, (size_t)bar_count(picture));
+    for (int s = 0; s < picture->count; s++) {
+        const ScalingSeries *series = &picture->series[s];
+        if (!has_bars(picture, series))
+            continue;
+        for (int k = 0; k < series->count; k++) {
+            const CostSample *of = &picture->runs[series->run[k]].cost;
+            char name[64];
+            snprintf(name, sizeof name, "%d\\n%.3g k", of->ranks, 1e-3 * of->particles);
+            plot_bar(plot,
+                     (double[]){1e3 * of->compute, 1e3 * of->exchange, 1e3 * of->balance, 1e3 * of->wait},
+                     name);
+        }
+        plot_bar(plot, (double[4]){0}, " ");
+    }
+    plot_draw(plot, NULL);
 }
 
 /* Draws speed-up, or efficiency in percent, over ranks. */

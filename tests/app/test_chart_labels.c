@@ -20,11 +20,11 @@ static void lone_name_stands_to_the_right(void **state)
     LabelBox place;
     field = (LabelField){.frame = {0, 0, 400, 300}};
     label_field_point(&field, 100, 100);
-    assert_true(label_place(&field, 100, 100, 80, 11, &place));
+    assert_true(label_place(&field, 100, 100, 80, 11, 120, &place));
     assert_true(place.left > 100 && place.left < 110 && place.top < 100 && place.bottom > 100);
-    assert_true(label_place(&field, 395, 150, 80, 11, &place)); /* at the frame: to the left */
+    assert_true(label_place(&field, 395, 150, 80, 11, 120, &place)); /* at the frame: to the left */
     assert_true(place.right <= 400 && place.left > 300);
-    assert_false(label_place(&field, 200, 150, 401, 11, &place)); /* wider than the frame */
+    assert_false(label_place(&field, 200, 150, 401, 11, 120, &place)); /* wider than the frame */
 }
 
 /* A line is kept off where there is room elsewhere, and is no obstacle where there is none. */
@@ -34,11 +34,11 @@ static void a_line_is_kept_off(void **state)
     LabelBox place;
     field = (LabelField){.frame = {0, 0, 400, 300}};
     label_field_line(&field, 100, 100, 300, 100);
-    assert_true(label_place(&field, 100, 100, 80, 11, &place));
+    assert_true(label_place(&field, 100, 100, 80, 11, 120, &place));
     assert_true(place.bottom < 100 || place.top > 100 || place.right < 100);
     field = (LabelField){.frame = {90, 90, 200, 110}};
     label_field_line(&field, 90, 100, 200, 100);
-    assert_true(label_place(&field, 100, 100, 80, 18, &place));
+    assert_true(label_place(&field, 100, 100, 80, 18, 120, &place));
 }
 
 static void names_of_many_points_do_not_overlap(void **state)
@@ -56,7 +56,7 @@ static void names_of_many_points_do_not_overlap(void **state)
             label_field_point(&field, x[i], y[i]);
         }
         for (int i = 0; i < N; i++)
-            placed += label_place(&field, x[i], y[i], 100 + 40 * random_part(), 11, &place[placed]);
+            placed += label_place(&field, x[i], y[i], 100 + 40 * random_part(), 11, 120, &place[placed]);
         assert_true(placed > N / 4);
         for (int i = 0; i < placed; i++) {
             assert_true(place[i].left >= 50 && place[i].right <= 500 && place[i].top >= 20 &&

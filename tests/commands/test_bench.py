@@ -134,6 +134,30 @@ class Bench(BenchTest):
         self.assertIn("/no/such/folder", done.stderr)
 
 
+class Charts(Case):
+    def chart(self, *arguments):
+        self.slosh_out('bench', '-o', 'chart.svg', '--size', '64x64', '--quiet', *arguments)
+        chart = self.read('chart.svg').decode()
+        self.assertEqual(svg_labels.faults(chart), [])
+        return [label[0] for label in svg_labels.labels(chart)]
+
+    def test_a_chart_of_the_stages(self):
+        """A bar for each case, with all that tells them apart, and a legend that leaves out no time."""
+        self.write('a_second.yaml', self.read(SCENE))
+        words = self.chart(SCENE, 'a_second.yaml', '--frames', '2', '--sweep', 'solver.step.substeps=1,2', '--sweep', 'threads=1,2')
+        for word, count in (('a_second', 4), ('scene', 4), ('mueller, cpu', 8), ('spheres', 8), ('solver.step.substeps=2', 4), ('threads=1', 4),
+                            ('500 particles', 8), ('time of a frame, ms', 1), ('all other stages', 1)):
+            self.assertEqual(words.count(word), count, (word, words))
+        words = self.chart(SCENE, '--frames', '1', '--view', 'none')
+        for word in 'none drawn', 'density', 'force':
+            self.assertEqual(words.count(word), 1, (word, words))
+
+    def test_bars_of_a_table(self):
+        words = self.chart('--table', 'paper003-voxelize', '--frames', '1', '--set', 'view.volume.method=slabs')
+        for word, count in (('slabs', 2), ('1024', 1), ('8192', 1), ('voxelize', 1), ('slice', 1)):
+            self.assertEqual(words.count(word), count, (word, words))
+
+
 class Tables(Case):
     def test_a_published_table_beside_its_figures(self):
         done = self.slosh_out('bench', '--table', 'paper003-spheres', '--view', 'spheres', '--frames', '1', '--size', '64x64', '-o', 'chart.svg',
@@ -232,7 +256,8 @@ class Tables(Case):
 
     def test_what_is_wrong_is_said_before_anything_runs(self):
         for words, *arguments in [('paper003-spheres', '--table', 'paper9'), ('FILE.svg', '--table', 'paper003-spheres', '-o', 'a.gif'),
-                                  ('its own scenes', SCENE, '--table', 'paper003-spheres'), ('--table', SCENE, '-o', 'a.svg')]:
+                                  ('its own scenes', SCENE, '--table', 'paper003-spheres'), ('--table', SCENE, '--micro', '-o', 'a.svg'),
+                                  ('FILE.svg', SCENE, '-o', 'a.gif')]:
             done = self.slosh_out('bench', *arguments, code=2)
             self.assertIn(words, done.stderr)
         self.assertEqual(self.entries(), [])

@@ -26,6 +26,9 @@ class Chart(command.CommandTest):
         self.assertTrue('differ by 1e-6' in self.text('out.svg'))
         self.assertRegex(first.stderr, r'chart: +\d+ %  0:\d\d elapsed, about 0:\d\d left')
         self.assertEqual(svg_labels.faults(self.text('out.svg')), [])
+        words = [label[0] for label in svg_labels.labels(self.text('out.svg'))]
+        for word, count in (('error, %', 2), ('mueller, cpu, long steps: ', 1), ('mueller, cpu, fine steps: ', 1), ('best for its time: particles, step', 1)):
+            self.assertEqual(sum(text.startswith(word) for text in words), count, (word, words))
         rows = self.text('out.csv')
         self.assertEqual(len(rows.splitlines()), 1 + 6 + 1 + 3)
         again = self.run_it('tank.yaml', '-o', 'out.svg', *SMALL)
@@ -188,7 +191,10 @@ class Chart(command.CommandTest):
                                   ('wcsph', 'delta_sph=0 support=2.6'), ('wcsph', 'delta_sph=0.1 support=2.1'), ('wcsph', 'delta_sph=0.1 support=2.6')})
         self.assertEqual({run['spacing'] for run in figures['runs'] if run['role'] == 'reference'}, {0.05})
         for text in (done.stdout, self.text('out.svg')):
-            self.assertIn('wcsph, cpu, delta_sph=0.1 support=2.6, fine steps: ', text)
+            for series_name in ('mueller, cpu, support=2.1', 'mueller, cpu, support=2.6', 'wcsph, cpu, delta_sph=0 support=2.1',
+                                'wcsph, cpu, delta_sph=0.1 support=2.6'):  # the first and the last of the legend
+                for steps in 'long', 'fine':
+                    self.assertIn(f'{series_name}, {steps} steps: ', text)
         self.assertEqual(svg_labels.faults(self.text('out.svg')), [])
         again = self.run_it('scene.yaml', '-o', 'out.svg', *both, '--sweep', 'particles.support=2.1,2.6', '--sweep', 'particles.spacing=0.2,0.1')
         self.assertIn('are in out.csv already', again.stderr)

@@ -7,6 +7,7 @@ import signal
 import h5py
 
 import command
+import svg_labels
 from command import SCENE, CommandTest, limit_files
 
 PROBES = """\
@@ -126,6 +127,10 @@ class Probes(ProbesTest):
         picture = self.read('a.svg').decode()
         for word in ('floor.pressure_mean', 'level.height', 'rake_0.density', 'kg/m3', 'A small tank'):
             self.assertIn(word, picture)
+        self.assertEqual(svg_labels.faults(picture), [])
+        words = [label[0] for label in svg_labels.labels(picture)]
+        self.assertTrue({'pressure, Pa', 'height, m'} <= set(words), words)
+        self.assertEqual(words.count('time, s'), 1)
         self.assertEqual(len(self.rows('a.csv')), 101)
 
     def test_a_plot_of_many_curves_has_the_first(self):
@@ -137,6 +142,7 @@ class Probes(ProbesTest):
         self.assertEqual(said, 'a.svg: the first 200 curves of a unit are drawn; the table has the 103 others\n')
         picture = self.read('a.svg').decode()
         self.assertIn('and 291 more', picture)
+        self.assertEqual(svg_labels.faults(picture), [])
         self.go('--probes', 'a.svg')  # it is of probes, and may be replaced
 
     def test_a_file_of_another_s_is_kept(self):

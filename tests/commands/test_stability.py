@@ -74,7 +74,15 @@ class Stability(command.CommandTest):
         self.assertIn('mode fixed', first.stderr)
         self.assertRegex(first.stderr, r'stability: +\d+ %')
         self.assertEqual(svg_labels.faults(self.text('out.svg')), [])
+        words = [label[0] for label in svg_labels.labels(self.text('out.svg'))]
         self.assertIn('wcsph, cpu: measured / theory', self.text('out.svg'))
+        for word in ('viscosity of water, Pa s (fluids[0].viscosity)', 'sound speed, m/s (solver.sound_speed)', 'longest step', 'that holds, ms'):
+            self.assertIn(word, words)
+        note = ' '.join(words)
+        for sign, said in (('*', '; *: from some start a longer one holds'), ('none', '; none: no step holds')):
+            self.assertEqual(said in note, any(word.endswith(sign) and len(word) < 8 for word in words), (sign, words))
+        self.assertEqual(self.run_it(*BOTH, output='one.svg').returncode, 0)  # half as wide
+        self.assertEqual(svg_labels.faults(self.text('one.svg')), [])
         rows, drawn = self.text('out.csv'), self.text('out.svg')
         again = self.run_it(*BOTH, '--sweep', 'method=mueller,wcsph', '--threads', '1')
         self.assertEqual((again.stdout, self.text('out.csv')), (first.stdout, rows))  # nothing ran again

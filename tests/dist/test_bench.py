@@ -1,8 +1,13 @@
 """What slosh-dist bench measures, and what is made of it: shares that follow the load, the model of cost."""
 import json
+import pathlib
+import sys
 import unittest
 
 from ranks import RanksCase
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "commands"))
+import svg_labels
 
 
 class Bench(RanksCase):
@@ -58,6 +63,7 @@ class Bench(RanksCase):
         picture = chart.read_text()
         for words in ("strong scaling", "weak scaling", "exchange"):
             self.assertIn(words, picture)
+        self.assertEqual(svg_labels.faults(picture), [])
         code, out, errors = self.alone("scaling", files[0], files[0], "-o", self.folder / "none.svg")
         self.assertEqual((code, out), (2, ""))
         self.assertIn("no two runs", errors)
