@@ -337,7 +337,7 @@ void plot_function(Plot *plot, const char *title, const char *style, ...)
 
 void plot_bars(Plot *plot, const char *const titles[], const int colours[], size_t count)
 {
-    enum { LEAST = 4 }; /* bars that a panel has room for, so that one is not a wall */
+    enum { LEAST = 4 }; /* a panel has room for as many bars: a single bar is no wall */
     const double middle = 0.5 * ((double)count - 1), half = 0.5 * fmax((double)count, LEAST) + 0.1;
     plot_axis(plot, "x", middle - half, middle + half, false);
     fprintf(plot_commands(plot),

@@ -144,7 +144,7 @@ static inline const RenderOptions *options_of_render(const Args *args)
     return args->own;
 }
 
-/* True if pictures are between two states, at their own times; false: of the first state at or after.
+/* True if pictures are between two states, at even times; false: of the first state at or after.
    A film with pictures at uneven times judders. */
 static inline bool render_between(const Args *args, bool several)
 {

@@ -58,6 +58,8 @@ static void print_default(const Key *key, FILE *file)
     else if (!is_container(key->type)) {
         defaults_of(key, &defaults);
         key_value_text(key, &defaults, value, sizeof value);
+        if (key->zero && strcmp(value, "0") == 0)
+            snprintf(value, sizeof value, "%s", key->zero);
     }
     fprintf(file, " %s |", value);
 }

@@ -114,7 +114,7 @@ const Key view_keys[] = {
     {.path = "view.size.range", .type = KEY_RANGE, .flags = L, .unit = "", BOUNDS(-1e12, 1e12), .offset = AT(size.range),
      .aux = AT(size.range_auto), .owner = &by_size, .help = "auto, symmetric or [low, high] in the scalar's unit, as view.range"},
     POINTS("view.size.curve", L, 0, 5, control_presets, AT(size.curve), "factor of view.radius by where the scalar is in its range", .owner = &by_size),
-    NUMBER("view.radius", L, "spacings", 0, 10, AT(radius), "of a particle; 0: the view's own"),
+    NUMBER("view.radius", L, "spacings", 0, 10, AT(radius), "of a particle; auto, 0: the view's own", .zero = "auto"),
     KEYS_END,
 };
 

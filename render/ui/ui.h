@@ -26,6 +26,7 @@ typedef struct UiScale {
     bool whole;         /* whole numbers only */
     double least, most; /* limits of typed values */
     const char *unit;   /* for display, "" without a unit */
+    const char *zero;   /* shown in place of 0, NULL: none */
 } UiScale;
 
 /* 0 at the low end, 1 at the high end; values beyond are clamped. */

@@ -48,5 +48,8 @@ double ui_scale_typed(const UiScale *scale, double value)
 
 void ui_scale_text(const UiScale *scale, double value, char *text, size_t size)
 {
-    snprintf(text, size, "%.4g%s%s", value, *scale->unit ? " " : "", scale->unit);
+    if (value == 0 && scale->zero)
+        snprintf(text, size, "%s", scale->zero);
+    else
+        snprintf(text, size, "%.4g%s%s", value, *scale->unit ? " " : "", scale->unit);
 }

@@ -21,7 +21,7 @@ UNIFORM_BLOCK(SolidSharesBlock, SOLID_SHARES_BLOCK)
     ivec3 shared_first; /* the cells that solids reach */
     int share_count;
     ivec3 shared_cells;
-    float least_free; /* what is left of the kernel at least */
+    float least_free; /* least part of the kernel left free */
 }
 BLOCK_END(SolidSharesBlock);
 

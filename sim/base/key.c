@@ -1,6 +1,7 @@
 #include "sim/base/key.h"
 
 #include <stdio.h>
+#include <string.h>
 
 void key_bounds_text(const Key *key, char *text, size_t size)
 {
@@ -26,6 +27,9 @@ void key_range_text(const Key *key, char *text, size_t size)
         snprintf(text, size, "true, false");
     else if (used == 0)
         key_bounds_text(key, text, size);
+    used = strlen(text);
+    if (key->zero)
+        snprintf(text + used, size - used, " or %s", key->zero);
 }
 
 const char *key_choice(const Key *key, int index)

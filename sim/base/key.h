@@ -79,6 +79,7 @@ typedef struct Key {
     void (*init)(void *element, int index); /* list: defaults of a zeroed element with index `index` */
     const char *fallback; /* the default in words if not a constant; NULL: as in the struct's defaults */
     const char *off;  /* for a term of the model: the value in a scene without the term; NULL: no such term */
+    const char *zero; /* a word for 0, which a file may have in its place: "auto"; NULL: none */
     const char *help; /* one line */
     const KeyOwner *owner; /* of the key and of keys below; NULL: owner of the mapping above, if any */
 } Key;

@@ -15,7 +15,7 @@ typedef struct MAY_ALIAS CpuDef {
 
 /* clang-format off */
 static const Key keys[] = {
-    INTEGER("solver.threads", I, 0, 1024, offsetof(CpuDef, threads), "how many; 0: one a processor"),
+    INTEGER("solver.threads", I, 0, 1024, offsetof(CpuDef, threads), "how many; auto, 0: one a processor", .zero = "auto"),
     CHOICE_OF("solver.simd", I | KEY_INDEX, simd_kinds, offsetof(CpuDef, simd), "the instructions of its pair sums; all give the same bits"),
     KEYS_END,
 };

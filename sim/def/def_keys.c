@@ -236,7 +236,8 @@ const Key fluid_keys[] = {
 #define FIELDS_BOWL(S)                                                                                       \
     CENTRE(S, "of its sphere, in the middle of its opening")                                                 \
     RADIUS(S, "inside")                                                                                      \
-    NUMBER(S ".thickness", 0, "m", 0, 1e6, SOLID(thickness), "of its wall; 0: the support radius"),          \
+    NUMBER(S ".thickness", 0, "m", 0, 1e6, SOLID(thickness), "of its wall; auto, 0: the support radius",     \
+           .zero = "auto"),                                                                                  \
         DIRECTION(S, "where it opens to")
 #define FIELDS_MESH(S)                                                                                       \
     FILE_TEXT(                                                                                               \

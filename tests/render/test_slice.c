@@ -403,7 +403,7 @@ static double encoded(double linear)
     return 255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055);
 }
 
-/* Between two fluids are mixtures of their colours, by the sums of each: here the share of the first, as a
+/* Between two fluids are mixtures of their colours, by the sums of each; here the share of the first, as a
  * scalar. */
 static void fluids_have_their_colours(void **state)
 {

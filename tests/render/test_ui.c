@@ -180,6 +180,12 @@ static void test_scale_has_no_more_digits_than_are_shown(void **state)
         ui_scale_text(i % 2 ? &log : &linear, value, text, sizeof text);
         assert_true(strtod(text, NULL) == value);
     }
+    char text[48];
+    const UiScale chosen = {.low = 0, .high = 10, .most = 10, .unit = "m", .zero = "auto"};
+    ui_scale_text(&chosen, 0, text, sizeof text);
+    assert_string_equal(text, "auto");
+    ui_scale_text(&chosen, 0.5, text, sizeof text);
+    assert_string_equal(text, "0.5 m");
 }
 
 static void test_draws_in_its_window_and_nowhere_else(void **state)

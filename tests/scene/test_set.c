@@ -32,6 +32,20 @@ static void values_replace_and_are_added(void **state)
     assert_string_equal(scene.title, "Two words: and a colon");
 }
 
+/* Where 0 leaves the choice to slosh, a word stands for 0. */
+static void a_word_stands_for_0(void **state)
+{
+    (void)state;
+    set("view.radius=0.7");
+    assert_true(scene.view.radius == 0.7);
+    set("view.radius=auto");
+    assert_true(scene.view.radius == 0);
+    set("solver.threads=auto");
+    assert_int_equal(*world_threads(&scene.world), 0);
+    assert_set_refused("view.radius=automatic", "view.radius must be a number or auto");
+    assert_set_refused("particles.spacing=auto", "particles.spacing must be a number in m");
+}
+
 static void lists_grow_by_one(void **state)
 {
     (void)state;
@@ -196,6 +210,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_replace_and_are_added),
+        cmocka_unit_test(a_word_stands_for_0),
         cmocka_unit_test(lists_grow_by_one),
         cmocka_unit_test(a_range_is_of_one_scalar),
         cmocka_unit_test(later_settings_win),

@@ -187,7 +187,7 @@ static void density_stays_above_zero_and_comes_back(void **state)
     }
 }
 
-/* What a solid pushes, densities store: a boundary particle counts twice in wcsph's rate, as in its force.
+/* Densities store the work of solids: a boundary particle counts twice in wcsph's rate, as in the force.
    With one of the two the column above a plate has a standing wave of sound that grows, 0.04 after 16 s. */
 static void a_column_above_a_plate_comes_to_rest(void **state)
 {

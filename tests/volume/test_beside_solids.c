@@ -19,7 +19,7 @@ static SolidsScene pool(RaycastLook look, VolumeMethod method)
     return scene;
 }
 
-/* As fluid at rest lies in the box and around its solids. */
+/* As fluid at rest lies in the box and around solids. */
 static void fill(SolidsScene *scene)
 {
     for (int j = 0; j < 5; j++)
@@ -106,7 +106,7 @@ static void test_the_level_beside_a_block(void **state)
         SolidDef *block = scene_add(&scene, SOLID_BOX, 0.1, 0.5, 0);
         memcpy(block->size, (double[]){0.4, 1.2, 0.4}, sizeof block->size);
         fill(&scene);
-        if (i == 2) { /* which has come there */
+        if (i == 2) { /* come there since */
             block->centre[0] -= 0.3;
             add_solid_motion(block,
                              (Motion){MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.3, .frequency = 0.2});
@@ -165,8 +165,8 @@ static void test_no_water_between_glass_and_solid(void **state)
     free(scene.particles);
 }
 
-/* Through the glass beside the block one looks past it: its front is on the screen where the bent ray goes
-   on, but before the ray. */
+/* Through the glass beside the block one looks past the block: the front is on the screen where the bent ray
+   goes on, but before the ray. */
 static void test_no_solid_beside_its_outline(void **state)
 {
     (void)state;
@@ -183,7 +183,7 @@ static void test_no_solid_beside_its_outline(void **state)
         make_ray(&scene, &camera, (double[]){place[0] + 16.0 / WIDTH, place[1]}, eye, right);
         const double glass = meets_pool(&scene, eye, ray);
         const bool in_front = glass > 0 && fabs(eye[2] + glass * ray[2] - 0.25) < 1e-6;
-        const double solid = trace(&scene, eye, right); /* eight pixels on: its front, not its side */
+        const double solid = trace(&scene, eye, right); /* eight pixels on: the front, not the side */
         if (!in_front || is_rough(&scene, &camera, place, 0) || trace(&scene, eye, ray) > 0 ||
             !(solid > 0 && fabs(eye[2] + solid * right[2] - 0.25) < 1e-3))
             continue;

@@ -210,7 +210,7 @@ bool panel_pictures_open(PanelPictures *pictures, const PicturePanel panels[], i
                          int height, Error *error);
 void panel_pictures_close(PanelPictures *pictures); /* a zeroed one is allowed */
 
-/* Call before each step of a session for pictures between two states, at their own times. Keeps the state if
+/* Call before each step of a session for pictures between two states, at even times. Keeps the state if
    the step can reach `time` (s), the time of the next picture. Without calls a picture shows the first state
    at or after its time. */
 bool panel_pictures_keep(PanelPictures *pictures, const Session *session, double time, Error *error);

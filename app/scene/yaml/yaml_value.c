@@ -67,12 +67,25 @@ bool value_in_range(const Key *key, double number)
     return (key->flags & KEY_OPEN_LOW ? number > key->min : number >= key->min) && number <= key->max;
 }
 
+/* The same with the key's word for 0: "a number or auto". */
+static bool wrong_number(const Value *value, const YamlNode *node, const char *wanted)
+{
+    const char *zero = value->key->zero;
+    char either[64];
+    snprintf(either, sizeof either, "%s%s%s", wanted, zero ? " or " : "", zero ? zero : "");
+    return wrong(value, node, either);
+}
+
 static bool read_number(const Value *value, const YamlNode *node, const char *wanted, double *out)
 {
     const Key *key = value->key;
     char range[128];
+    if (key->zero && node->kind == NODE_SCALAR && node->text && strcmp(node->text, key->zero) == 0) {
+        *out = 0;
+        return true;
+    }
     if (!number_parse(node, out))
-        return wrong(value, node, wanted);
+        return wrong_number(value, node, wanted);
     if (!isfinite(*out))
         return tree_error(value->tree, node, value->error, "%s must be a finite number, not %s", value->shown,
                           node->text);

@@ -54,7 +54,8 @@ static UiScale scale_of(const Key *key, double start, double now, const char *un
     UiScale scale = {.least = open ? nextafter(key->min, key->max) : key->min,
                      .most = key->max,
                      .whole = key->type == KEY_INTEGER,
-                     .unit = unit};
+                     .unit = unit,
+                     .zero = key->zero};
     const double small = 10;
     scale.low = key->min;
     scale.high = key->max;

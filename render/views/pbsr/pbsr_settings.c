@@ -61,7 +61,7 @@ const Key pbsr_keys[] = {
            "of what is seen from the front, tilted it is more; of volume: of fluid one spacing deep, or of a file's greatest value as deep as its shortest side"),
     COLOR("view.pbsr.layers[].color", L, LAYER(color), NULL, "sRGB: [red, green, blue], each 0 to 1; black: what view.color_by says, of a formula where it is in the fluid; of a file: its values; of solids: their own"),
     INTEGER("view.pbsr.repeat", L, 1, 4096, AT(repeat), "sets of points that a picture is the mean of, once nothing moves: noise falls with its root"),
-    INTEGER("view.pbsr.moving", L, 0, 4096, AT(moving), "the same while something moves in the window or in bench, and what each picture at rest adds; 0: by the budget"),
+    INTEGER("view.pbsr.moving", L, 0, 4096, AT(moving), "the same while something moves in the window or in bench, and what each picture at rest adds; auto, 0: by the budget", .zero = "auto"),
     NUMBER("view.pbsr.budget", L | O, "ms", 0, 1e5, AT(budget), "of wall time for the sets of a picture, where moving is 0 and the CPU projects; the GPU has eight sets"),
     NUMBER("view.pbsr.cell", L | O, "spacings", 0, 10, AT(cell), "side of a cell of the grid on which layers are found"),
     NUMBER("view.pbsr.curved", L, "", 0, 100, AT(curved), "of the fluid's surfaces by triangles: where one is bent there are up to so many times as many points more, so that drops and rims stand out; density is 1 + curved min(h / R, 1) times what opacity says, with the support radius h and the radius of curvature R"),

@@ -55,7 +55,7 @@ const VolumeDef volume_usual = {
 const Key volume_keys[] = {
     MAPPING("view.volume", "of the view volume: the fluid's field on a grid of voxels"),
     INTEGER("view.volume.cells", L, 4, 4096, AT(cells), "along the box's longest side, where cell is 0; cells are never wider than the support radius"),
-    NUMBER("view.volume.cell", L, "spacings", 0, 10, AT(cell), "side of a cell; 0: by cells"),
+    NUMBER("view.volume.cell", L, "spacings", 0, 10, AT(cell), "side of a cell; auto, 0: by cells", .zero = "auto"),
     CHOICE_OF("view.volume.bounds", L | KEY_INDEX, volume_bounds_names, AT(bounds),
            "of the volume: the box's, or those that the fluid has in each picture"),
     CHOICE_OF("view.volume.method", L | KEY_INDEX | KEY_REBUILD, volume_method_names, AT(method),
