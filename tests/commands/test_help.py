@@ -26,6 +26,7 @@ VALUES = {
 APART = {'bench': {'--play', '--micro', '--ablate', '--seconds', '--table', '-o'},
          'export': {'--slice', '--trails', '--scalar', '--kernel', '--raw', '--size',  # test_slice.py, test_export.py
                     '--solids', '--fluids'},  # test_meshes.py
+         'render': {'--steps'},  # in place of --interpolate: test_steps.py
          'devices': {'--mapping', '--write-mapping', '--record'}}
 
 
