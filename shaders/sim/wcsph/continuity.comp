@@ -70,22 +70,21 @@ void meet_image(uint j, vec3 d, float volume)
 }
 
 #ifdef SOLIDS
-// Boundary particles count twice, but for the correction: pack_flows in sim/methods/wcsph/wcsph_passes.c. The solid's own
-// velocity there, not the velocity that boundary_fill.comp mirrors for friction.
+// The solid's own velocity there, not the mirrored velocity.
 vec3 solid_velocity_of(uint j) { return solid_velocity_at(int(rest[boundary_state[j].y].w), boundary_position[j].xyz); }
 
 void meet_boundary(uint j, vec3 d, float volume)
 {
     float h = support, least = 1e-6 * h, r2 = dot(d, d);
     if (r2 < h * h && r2 >= least * least)
-        sum += shape(sqrt(r2) * inverse_support) * dot(own_velocity - solid_velocity_of(j), d + along(d));
+        sum += shape(sqrt(r2) * inverse_support) * dot(own_velocity - solid_velocity_of(j), along(d));
 }
 
 void meet_boundary_image(uint j, vec3 d, float volume)
 {
     float r2 = dot(d, d);
     if (r2 < support * support)
-        image_sum += image_shape(sqrt(r2)) * dot(image_velocity - solid_velocity_of(j), d + along_image(d));
+        image_sum += image_shape(sqrt(r2)) * dot(image_velocity - solid_velocity_of(j), along_image(d));
 }
 #endif
 

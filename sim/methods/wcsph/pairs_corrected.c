@@ -53,7 +53,7 @@ SIMD_INLINE void matrix_range(const PairArgs *args, size_t begin, size_t end, co
     }
 }
 
-/* Sum of F v_ij . C_i x_ij, in the mirror's axes; boundary particles have no C and count once. */
+/* Sum of F v_ij . C_i x_ij, in the mirror's axes. */
 SIMD_INLINE f8 corrected_flow(const PairArgs *args, const NeighbourRange near, const SumPoint *from,
                               const LaneVector v, const Symmetric c, const ShapeKernel kernel)
 {

@@ -3,7 +3,7 @@
    sim/box/box.h. */
 #include "sim/methods/wcsph/pair_wcsph.h"
 
-/* Sum of F v_ij . x_ij over the neighbours of the images of group i, with weights w of motion. */
+/* Sum of F v_ij . x_ij over the neighbours of the images of group i. */
 SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const NeighbourRange near,
                           const ImageParticle *image, const ShapeKernel kernel)
 {
@@ -17,7 +17,7 @@ SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const NeighbourRange n
         const Separation d = separation(args, image->at, j);
         const f8 f = image_shape(f8_sqrt(greater(d.r2, least2)) * inverse_h, apart, kernel);
         const f8x4 v = motion(args, j);
-        sum += f * v.w * ((ui - v.x) * d.x + (vi - v.y) * d.y + (wi - v.z) * d.z);
+        sum += f * ((ui - v.x) * d.x + (vi - v.y) * d.y + (wi - v.z) * d.z);
     }
     return sum;
 }

@@ -172,9 +172,8 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
     }
 }
 
-/* Sum of F v_ij . x_ij, the flow's convergence, with weights w of motion, minus the diffusion of relative
-   density within a fluid: density differences beyond the gradient (Molteni and Colagrossi 2009; Antuono
-   2010). */
+/* Sum of F v_ij . x_ij, the flow's convergence, minus the diffusion of relative density within a fluid:
+   density differences beyond the gradient (Molteni and Colagrossi 2009; Antuono 2010). */
 SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
                             const bool diffusive)
 {
@@ -199,7 +198,7 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
             Separation d = separation(args, at, j);
             const f8 f = f8_masked(d.r2 >= least2, shape(f8_sqrt(d.r2) * inverse_h, kernel));
             const f8x4 v = motion(args, j);
-            f8 flow = v.w * ((ui - v.x) * d.x + (vi - v.y) * d.y + (wi - v.z) * d.z);
+            f8 flow = (ui - v.x) * d.x + (vi - v.y) * d.y + (wi - v.z) * d.z;
             if (diffusive) {
                 const i8 same = f8_gather(args->kind, j) == fi;
                 const f8 along = (gx + f8_gather(args->own[SLOPE], j)) * d.x +

@@ -6,7 +6,6 @@
 #include "sim/methods/wcsph/wcsph_private.h"
 
 #include <math.h>
-#include <string.h>
 
 PAIR_LOOPS(wcsph_carried);
 
@@ -85,19 +84,6 @@ static void slope_body(const CpuRange *range)
     cpu_pairs(range, &wcsph_slope);
 }
 
-/* {x, p V^2}, and {v, weight in the rate}. A boundary particle counts twice, as the images of fluid in walls
-   do: its velocity is mirrored. Force has p_i + p_b (sim/cpu/boundary.c), which is twice p_i nearly. With a
-   weight of 1 pushes do work that no density stores, and a tank above a plate hums for ever. */
-static void pack_flows(const CpuRange *range)
-{
-    const CpuParticles *p = &range->cpu->now;
-    for (size_t i = range->begin; i < range->end; i++) {
-        const float weight = p->fluid[i] < FLUIDS_MAX ? 1 : 2;
-        memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], p->pressure_term[i]}, 16);
-        memcpy(range->cpu->motion[i], (float[]){p->vx[i], p->vy[i], p->vz[i], weight}, 16);
-    }
-}
-
 static void rate_body(const CpuRange *range)
 {
     const Constants *s = range->cpu->constants;
@@ -134,8 +120,7 @@ static PairCost continuity_pair(const Constants *constants)
 }
 
 static const CpuPass slope_cpu_pass = {.loops = {{slope_body, .walks = true}}, .pair = slope_pair};
-static const CpuPass continuity = {.loops = {{rate_body, .walks = true, .pack = pack_flows}, STATE},
-                                   .pair = continuity_pair};
+static const CpuPass continuity = {.loops = {{rate_body, .walks = true}, STATE}, .pair = continuity_pair};
 
 const Pass wcsph_state = {
     .name = "state",
