@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 _Static_assert(SOLIDS_DRAWN_MAX == SOLIDS_MAX, "the shaders draw all solids of a scene");
 
@@ -36,7 +37,7 @@ static bool solids_prepare(void *state, const Subject *subject, Error *error)
         solids->program = program_create_pair("solids", "render/solids.vert", "render/solids.frag", error);
     if (solids->program)
         solids->casting = program_create_pair("solids shadow", "render/solids_shadow.vert",
-                                              "render/depth_only.frag", error);
+                                              "render/solids_shadow.frag", error);
     return solids->casting != 0;
 }
 
@@ -122,13 +123,35 @@ static void follow_shapes(Solids *solids, const WorldDef *world, double slab)
     solid_mesh_destroy(&mesh);
 }
 
-void solid_to_world(const SolidDef *solid, int number, const ParticleBuffers *particles, const Frame *frame,
-                    float to_world[16])
+static void solid_to_box(const SolidDef *solid, int number, const ParticleBuffers *particles,
+                         float to_box[16])
 {
     BoxState pose;
     solid_pose_in(solid, particles->time, &particles->floating[number], &pose);
-    camera_box_matrix(&pose, to_world);
+    camera_box_matrix(&pose, to_box);
+}
+
+void solid_to_world(const SolidDef *solid, int number, const ParticleBuffers *particles, const Frame *frame,
+                    float to_world[16])
+{
+    solid_to_box(solid, number, particles, to_world);
     matrix_multiply(frame->box_to_world, to_world, to_world);
+}
+
+/* Floating solids may leave the box. Of meshes the cut is unknown. */
+static void fill_cut(DrawnSolid *drawn, const SolidDef *solid, double slab)
+{
+    static const uint32_t cuts[SOLID_KIND_COUNT] = {[SOLID_SPHERE] = SOLID_CUT_SPHERE,
+                                                    [SOLID_BOX] = SOLID_CUT_BOX,
+                                                    [SOLID_CYLINDER] = SOLID_CUT_CYLINDER,
+                                                    [SOLID_BOWL] = SOLID_CUT_BOWL};
+    drawn->cut = solid_floats(solid) ? 0 : cuts[solid->kind];
+    drawn->across[0] = slab > 0 ? 0 : 1;
+    drawn->size[0] = (float)solid->radius;
+    drawn->size[1] =
+        (float)(solid->kind == SOLID_BOWL ? solid->radius + solid->thickness : solid->height / 2);
+    for (int k = 0; solid->kind == SOLID_BOX && k < 3; k++)
+        drawn->size[k] = slab > 0 && k == 2 ? 1 : (float)(solid->size[k] / 2);
 }
 
 /* Makes the meshes again only if shapes, or the depth of a flat box, have changed. If memory is short, there
@@ -140,11 +163,13 @@ static void update_poses(Solids *solids, const ParticleBuffers *particles, const
     follow_shapes(solids, world, frame->slab);
     for (int i = 0; i < world->solid_count; i++) {
         float to_world[16];
-        solid_to_world(&world->solids[i], i, particles, frame, to_world);
-        matrix_multiply(frame->camera.view, to_world, block.solids[i].to_eye);
-        matrix_multiply(frame->light.from_world, to_world, block.solids[i].to_light);
-        for (int k = 0; k < 3; k++)
-            block.solids[i].color[k] = world->solids[i].color[k];
+        DrawnSolid *drawn = &block.solids[i];
+        solid_to_box(&world->solids[i], i, particles, drawn->to_box);
+        matrix_multiply(frame->box_to_world, drawn->to_box, to_world);
+        matrix_multiply(frame->camera.view, to_world, drawn->to_eye);
+        matrix_multiply(frame->light.from_world, to_world, drawn->to_light);
+        memcpy(drawn->color, world->solids[i].color, sizeof world->solids[i].color);
+        fill_cut(drawn, &world->solids[i], frame->slab);
     }
     glNamedBufferSubData(solids->poses, 0, sizeof block, &block);
 }

@@ -1,5 +1,5 @@
-// No particles are in a solid, so the field would end before the surface, and be low along the solid. Here the field is divided by the
-// part of the kernel that solids leave free, as in Shepard's interpolation (1968): fluid reaches into the solid, level.
+// No particles are in a solid, so the field would end before the surface, and be low along it. Here the field is divided by the
+// part of the kernel free of solids, as in Shepard's interpolation (1968): fluid reaches into the solid, level.
 #include "volume/volume.glsl"
 #include "shaders/volume/solid_shares_block.h"
 
@@ -27,7 +27,7 @@ float share_at(PlacedShare solid, vec3 at)
     return mix(mix(near.x, near.y, part.y), mix(far.x, far.y, part.y), part.z);
 }
 
-// Software drivers only skip loops. Beyond a solid's block, with 0 at the outside, the share is 0.
+// Software drivers only skip loops. Beyond a block, with outermost values of 0, shares are 0.
 void main()
 {
     int number = int((gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x);

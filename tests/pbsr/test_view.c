@@ -395,8 +395,11 @@ static void solids_hide_points(void **unused)
     memcpy(def.camera.to, to, sizeof to);
     picture_of(&def, &world, &scenery, without);
     world.solid_count = 1;
-    world.solids[0] =
-        (SolidDef){.kind = SOLID_SPHERE, .centre = {0, 0.2, 0.8}, .radius = 0.15, .axis = {0, 1, 0}};
+    world.solids[0] = (SolidDef){.kind = SOLID_SPHERE,
+                                 .centre = {0, 0.2, 0.8},
+                                 .radius = 0.15,
+                                 .axis = {0, 1, 0},
+                                 .density = 500}; /* others end at the box */
     picture_of(&def, &world, &scenery, with);
     const int middle = 3 * (SIZE * (SIZE / 2 + 2) + SIZE / 2);
     assert_true(without[middle] > without[middle + 1] + 60);

@@ -13,11 +13,12 @@ typedef struct SolidsScene {
     WorldDef world;
     ParticleBuffers state;
     Particles *particles;
+    bool cut; /* rays end at parts inside the box only */
 } SolidsScene;
 
 static inline SolidsScene scene_create(void)
 {
-    SolidsScene scene = {bare_view(), bare_world(), box_state(0, 0.1), calloc(1, sizeof(Particles))};
+    SolidsScene scene = {bare_view(), bare_world(), box_state(0, 0.1), calloc(1, sizeof(Particles)), false};
     assert_non_null(scene.particles);
     scene.def.camera_auto = false;
     scene.def.camera = (CameraDef){{1.2, 1.1, 3}, {0, 0.5, 0}, 28};
@@ -133,6 +134,19 @@ static inline void make_ray(const SolidsScene *scene, const Camera *camera, cons
     into_solid(scene, along, false, ray);
 }
 
+/* Of a place in the frame of the first solid, from the box: below 0 in it. */
+static inline double from_box(const SolidsScene *scene, const double x[3])
+{
+    const double *size = scene->state.box_size, half[3] = {size[0] / 2, size[1] / 2, size[2] / 2};
+    double at[3], most = -INFINITY;
+    BoxState pose;
+    solid_pose(&scene->world.solids[0], scene->state.time, &pose);
+    quat_rotate(pose.orientation, x, at);
+    for (int k = 0; k < 3; k++)
+        most = fmax(most, fabs(at[k] + pose.position[k] - (k == 1 ? half[1] : 0)) - half[k]);
+    return most;
+}
+
 /* The first place along a ray where a solid's distance is 0: 0 when there is none. Distances outside are
    exact, so steps of that length never pass the surface. */
 static inline double trace(const SolidsScene *scene, const double eye[3], const double ray[3])
@@ -142,7 +156,9 @@ static inline double trace(const SolidsScene *scene, const double eye[3], const 
     double t = 0;
     while (t < 10) {
         const double x[3] = {eye[0] + t * ray[0], eye[1] + t * ray[1], eye[2] + t * ray[2]};
-        const double distance = solid_distance(solid, 3, x);
+        double distance = solid_distance(solid, 3, x);
+        if (scene->cut)
+            distance = fmax(distance, from_box(scene, x));
         if (distance < 1e-7)
             return t;
         t += distance / length;

@@ -55,6 +55,28 @@ static void test_every_kind_is_where_it_is(void **state)
     }
 }
 
+/* At a corner of the box, most of the solid is outside: the rest ends at the box's sides, seen from above,
+   from behind and from below. Floating solids and meshes stay whole. */
+static void test_what_sticks_out_is_cut_off(void **state)
+{
+    (void)state;
+    static const double eyes[][3] = {{2.2, 1.2, 3}, {-2, 1.6, -2.4}, {1.6, -1.2, 2.6}};
+    for (int i = 0; i < SOLID_KIND_COUNT * 3; i++) {
+        const SolidKind kind = (SolidKind)(i / 3);
+        SolidsScene scene = scene_create();
+        SolidDef *solid = scene_add(&scene, kind, 0.95, 0.07, 0.43);
+        solid->axis[0] = 0.5, solid->axis[2] = 0.6;
+        solid->angle_deg = 50;
+        solid->thickness = 0.12;
+        solid->density = kind == SOLID_SPHERE && i % 3 == 2 ? 500 : 0;
+        scene.cut = !solid_floats(solid) && kind != SOLID_MESH;
+        scene.def.camera = (CameraDef){{eyes[i % 3][0], eyes[i % 3][1], eyes[i % 3][2]}, {0.9, 0.1, 0.4}, 20};
+        scene.state.box =
+            (BoxState){.position = {-0.1, 0.1, 0.1}, .orientation = {0.1, 0.1, -0.1, sqrt(0.97)}};
+        assert_true(compare(&scene, kind == SOLID_BOX ? 1e-4 : 4e-3) > 200);
+    }
+}
+
 /* Against the formula: a ball's depth at every pixel away from the rim. Chords leave the arc by 3e-4 m
    along and across the circles. */
 static void test_sphere_by_formula(void **state)
@@ -281,6 +303,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(test_every_kind_is_where_it_is, no_gl_errors),
+        cmocka_unit_test_teardown(test_what_sticks_out_is_cut_off, no_gl_errors),
         cmocka_unit_test_teardown(test_sphere_by_formula, no_gl_errors),
         cmocka_unit_test_teardown(test_moves_with_time, no_gl_errors),
         cmocka_unit_test_teardown(test_the_nearer_is_seen, no_gl_errors),

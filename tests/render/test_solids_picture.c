@@ -53,6 +53,23 @@ static void test_shadow_on_the_floor(void **state)
 }
 
 /* A ball in front of the box, beyond the box's shadow: the ball's shadow is complete. */
+/* Beside and above the box are neither parts of solids nor shadows of such parts. */
+static void test_no_shadow_of_what_is_cut_off(void **state)
+{
+    (void)state;
+    static uint8_t with[3 * PIXELS], without[3 * PIXELS];
+    for (int above = 0; above <= 1; above++) {
+        SolidsScene scene = scene_create();
+        scene.def.floor = true;
+        SolidDef *solid = scene_add(&scene, SOLID_BOX, above ? 0 : 1.31, above ? 1.2 : 0.5, 0);
+        draw_rgb(&scene, false, with);
+        solid->size[0] = solid->size[1] = solid->size[2] = 0.01;
+        draw_rgb(&scene, false, without);
+        assert_memory_equal(with, without, sizeof with);
+        free(scene.particles);
+    }
+}
+
 static void test_shadow_before_the_box(void **state)
 {
     (void)state;
@@ -62,7 +79,8 @@ static void test_shadow_before_the_box(void **state)
     double pixel[2], depth;
     scene.def.floor = true;
     scene.def.camera = (CameraDef){{1.5, 1.5, 3}, {0, 0, 0.9}, 40};
-    scene_add(&scene, SOLID_SPHERE, 0, 0.3, 1)->radius = 0.15;
+    SolidDef *ball = scene_add(&scene, SOLID_SPHERE, 0, 0.3, 1);
+    ball->radius = 0.15, ball->density = 500; /* afloat: not cut off at the box */
     draw_rgb(&scene, false, rgb);
     camera_make(&scene.def, scene.state.box_size, &scene.state.box, (double)WIDTH / HEIGHT, (CoveredParts){0},
                 &camera);
@@ -249,6 +267,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(test_shadow_on_the_floor, no_gl_errors),
+        cmocka_unit_test_teardown(test_no_shadow_of_what_is_cut_off, no_gl_errors),
         cmocka_unit_test_teardown(test_shadow_before_the_box, no_gl_errors),
         cmocka_unit_test_teardown(test_shadow_on_fluid_and_on_solids, no_gl_errors),
         cmocka_unit_test_teardown(test_fluid_shades_solids, no_gl_errors),

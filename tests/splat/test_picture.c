@@ -30,7 +30,7 @@ static void solids_hide_and_are_hidden(void **state)
         SolidsScene scene = splat_among_solids();
         particles_add(scene.particles, 0, 0.5, 0, 1, 0);
         draw_depth(&scene, alone);
-        scene_add(&scene, SOLID_SPHERE, 0, 0.5, places[i]);
+        scene_add(&scene, SOLID_SPHERE, 0, 0.5, places[i])->density = 500; /* whole beyond the box too */
         draw_rgb(&scene, true, rgb);
         draw_depth(&scene, depth);
         const uint8_t *middle = pixel_of(rgb, WIDTH / 2, HEIGHT / 2);
@@ -135,7 +135,8 @@ static void solids_through_clear_fluid(void **state)
         for (int i = 0; i < 8 * 8 * 8; i++)
             particles_add(scene.particles, -0.28 + 0.08 * (i % 8), 0.22 + 0.08 * (i / 8 % 8),
                           -0.28 + 0.08 * (i / 64), 1, 0);
-        scene_add(&scene, SOLID_SPHERE, 0.1, 0.5, behind ? -0.6 : 0.6)->radius = 0.1;
+        SolidDef *ball = scene_add(&scene, SOLID_SPHERE, 0.1, 0.5, behind ? -0.6 : 0.6);
+        ball->radius = 0.1, ball->density = 500; /* whole beyond the box too */
         draw_rgb(&scene, true, rgb);
         for (int i = 0; i < PIXELS; i++)
             red += rgb[3 * i] > 120 && rgb[3 * i + 1] < 100;

@@ -19,7 +19,7 @@ static SolidsScene pool(RaycastLook look, VolumeMethod method)
     return scene;
 }
 
-/* As fluid at rest lies in the box and around solids. */
+/* As fluid at rest lies in the box and around its solids. */
 static void fill(SolidsScene *scene)
 {
     for (int j = 0; j < 5; j++)
@@ -39,7 +39,7 @@ static void centre_of(const SolidsScene *scene, double centre[3])
     memcpy(centre, pose.position, sizeof pose.position);
 }
 
-/* Of a ray in the frame of the first solid, which is not turned: where it enters the pool; 0: nowhere. */
+/* Where a ray in the frame of the first solid, not turned, enters the pool; 0: nowhere. */
 static double meets_pool(const SolidsScene *scene, const double eye[3], const double ray[3])
 {
     double centre[3];
@@ -96,7 +96,7 @@ static Found look(SolidsScene *scene, const char *what)
     return found;
 }
 
-/* What the field does at an upright block in the lattice is as exact as at a wall. */
+/* At an upright block in the lattice the field is as exact as at a wall. */
 static void test_the_level_beside_a_block(void **state)
 {
     (void)state;
@@ -106,7 +106,7 @@ static void test_the_level_beside_a_block(void **state)
         SolidDef *block = scene_add(&scene, SOLID_BOX, 0.1, 0.5, 0);
         memcpy(block->size, (double[]){0.4, 1.2, 0.4}, sizeof block->size);
         fill(&scene);
-        if (i == 2) { /* come there since */
+        if (i == 2) { /* which has come there */
             block->centre[0] -= 0.3;
             add_solid_motion(block,
                              (Motion){MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.3, .frequency = 0.2});
@@ -117,8 +117,7 @@ static void test_the_level_beside_a_block(void **state)
     }
 }
 
-/* As floating solids lie in the water: particles are up to a spacing from them, and the top is not as level.
- */
+/* As around floating solids, particles are up to a spacing away, and the top is less level. */
 static void test_no_gap_around_a_ball(void **state)
 {
     (void)state;
@@ -165,8 +164,8 @@ static void test_no_water_between_glass_and_solid(void **state)
     free(scene.particles);
 }
 
-/* Through the glass beside the block one looks past the block: the front is on the screen where the bent ray
-   goes on, but before the ray. */
+/* Through the glass beside the block one looks past the block: on the screen the bent ray goes on behind the
+   front. */
 static void test_no_solid_beside_its_outline(void **state)
 {
     (void)state;
@@ -183,7 +182,7 @@ static void test_no_solid_beside_its_outline(void **state)
         make_ray(&scene, &camera, (double[]){place[0] + 16.0 / WIDTH, place[1]}, eye, right);
         const double glass = meets_pool(&scene, eye, ray);
         const bool in_front = glass > 0 && fabs(eye[2] + glass * ray[2] - 0.25) < 1e-6;
-        const double solid = trace(&scene, eye, right); /* eight pixels on: the front, not the side */
+        const double solid = trace(&scene, eye, right); /* eight pixels on: its front, not its side */
         if (!in_front || is_rough(&scene, &camera, place, 0) || trace(&scene, eye, ray) > 0 ||
             !(solid > 0 && fabs(eye[2] + solid * right[2] - 0.25) < 1e-3))
             continue;

@@ -165,13 +165,13 @@ static void bubbles_go_by_ids(void **state)
     free(scene.particles);
 }
 
-/* A wall before the tank, a hand thick. */
+/* A wall before the tank, a hand thick; afloat, since others end at the box. */
 static void solids_hide_foam(void **state)
 {
     (void)state;
     SolidsScene scene = tank("splat");
     SolidDef *wall = scene_add(&scene, SOLID_BOX, 0, 0.5, 0.56);
-    wall->size[0] = 3, wall->size[1] = 1.6, wall->size[2] = 0.06;
+    wall->size[0] = 3, wall->size[1] = 1.6, wall->size[2] = 0.06, wall->density = 500;
     fill(&scene, 2, false);
     assert_true(foam_of(&scene, 0, 1).apart == 0);
     wall->centre[2] = -0.56;

@@ -18,7 +18,7 @@ _Static_assert(SOLID_SHARES_MAX == SOLIDS_MAX, "a block for each solid of a scen
 /* NODES: to the kernel's radius; a block has no more than NODES_MOST, wider apart if need be. */
 enum { NODES = 4, NODES_MOST = 1 << 21 };
 
-/* The least part of the kernel left free: what is deeper in a solid is left as it is. */
+/* The least part of the kernel left free: deeper in a solid the field is unchanged. */
 static const double LEAST_FREE = 0.35;
 
 /* A grid of nodes around a solid, in the solid's frame, and the kernel on it. */
@@ -78,7 +78,7 @@ static void fill_inside(void *context, size_t begin, size_t end)
             }
 }
 
-/* The kernel at nodes around one; its sum is 1. */
+/* The kernel at nodes around a node; the sum is 1. */
 typedef struct ShareKernel {
     int reach, depth; /* nodes: along x and y, along z */
     float weight[2 * NODES + 1][2 * NODES + 1][2 * NODES + 1];
@@ -105,7 +105,7 @@ static void fill_kernel(ShareKernel *kernel, const ShareBlock *block)
                 }
 }
 
-/* The range of offsets from `at` that stay on the grid. */
+/* The range of offsets from `at` on the grid. */
 static void offsets(int at, int size, int reach, int *first, int *last)
 {
     *first = at < reach ? -at : -reach;
@@ -192,7 +192,7 @@ static bool up_to_date(const SolidShares *shares, const WorldDef *world, double 
     return same;
 }
 
-/* If memory is short, no solid has a share: the field is then as it is. */
+/* If memory is short, no solid has a share, and the field is unchanged. */
 static void make_shares(SolidShares *shares, const WorldDef *world, double spacing)
 {
     ShareBlock block[SOLIDS_MAX];
@@ -260,7 +260,7 @@ void solid_shares_place(SolidShares *shares, const ParticleBuffers *particles, c
     }
 }
 
-/* The cells of a grid that a part reaches; false: none. */
+/* The cells of a grid within reach of a part; false: none. */
 static bool cells_of(const SolidShare *part, const VolumeGrid *grid, int low[3], int end[3])
 {
     bool any = part->first > 0;
