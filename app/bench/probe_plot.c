@@ -320,7 +320,7 @@ static bool draw(ProbeRows *table, const char *path, const char *title, Error *e
     if (panels == 0)
         return tell_nothing(path);
     choose(table, first, panels, path);
-    const double right = fmax(WIDTH / 2, WIDTH - LEGEND - key_width(table));
+    const double right = fmax(0.5 * WIDTH, WIDTH - LEGEND - key_width(table));
     if (!plot_begin(&plot, path, WIDTH, (int)top + PITCH * (panels - 1) + PANEL_HEIGHT + BELOW, error))
         return false;
     plot_titles(&plot, &title, 1);

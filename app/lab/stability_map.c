@@ -516,9 +516,9 @@ static void put_bar(const Drawing *d)
     plot_text(d->plot, bar.left, panel->top + 14, "left", 8, "#2a3440", "that holds, ms");
     put_bar_tic(d, bar, d->least);
     put_bar_tic(d, bar, d->most);
-    for (double power = pow(10, floor(log10(d->least))); power < d->most; power *= 10)
+    for (int power = (int)floor(log10(d->least)); power < log10(d->most); power++)
         for (int k = 0; k < 3; k++) {
-            const double step = power * (double[]){1, 2, 5}[k];
+            const double step = pow(10, power) * (double[]){1, 2, 5}[k];
             if (step > d->least * apart && step < d->most / apart)
                 put_bar_tic(d, bar, step);
         }
@@ -659,7 +659,8 @@ static void make_titles(Drawing *d)
 
 static void draw_series(const Drawing *d)
 {
-    const double left = PANEL_LEFT + d->series % 2 * PANEL_PITCH, top = d->top + d->series / 2 * d->row;
+    const int column = d->series % 2, row = d->series / 2;
+    const double left = PANEL_LEFT + column * PANEL_PITCH, top = d->top + row * d->row;
     plot_panel(d->plot, (LabelBox){left, top, left + PANEL_WIDTH, top + PANEL_HEIGHT}, left, top + LEGEND);
     put_heading(d, left, top);
     if (d->map->plan->axis_count == 2)

@@ -91,6 +91,10 @@ static void load(Session *session, const char *name)
     Error error = {{0}};
     SceneSettings settings = {.count = 0};
     session->opened++;
+    if (strcmp(name, "two_oils") ==
+        0) /* by a view that has widgets of all kinds, and as many in each state */
+        assert_true(scene_settings_add(&settings, NULL, "view.kind=spheres", &error) &&
+                    scene_settings_add(&settings, NULL, "view.volume.look=opaque", &error));
     assert_true(scene_load(name, &settings, &session->scene, NULL, &error));
     pbsr_def(&session->scene.view)->layer_count = 2; /* elements of a list have widgets */
 }
