@@ -93,13 +93,20 @@ class Handles(Window):
         self.assertNotEqual(out['box_position'], [0, 0, 0])
         self.assertEqual(out['view_settings']['view.slice.point']['value'], [0, 0.3, 0])
 
-    def test_keys_move_and_turn_the_plane(self):
+    def test_keys_move_the_plane(self):
         self.open('slice.yaml')
         self.keys('k', 'k', 'j')
-        self.keys('z', 'u')
         point, normal, _ = self.settings()
         extent = 0.6 + 0.8  # of the box along the normal
         numpy.testing.assert_allclose(point, self.point + 0.02 * extent * self.normal, atol=1e-5)
+        numpy.testing.assert_allclose(normal, self.normal)
+
+    def test_keys_set_and_turn_the_plane(self):
+        """Through the middle of the fluid, which fills the box to 0.4 m."""
+        self.open('slice.yaml')
+        self.keys('z', 'u')
+        point, normal, _ = self.settings()
+        numpy.testing.assert_allclose(point, [0, 0.2, 0], atol=0.01)
         numpy.testing.assert_allclose(normal, [-math.sin(math.pi / 36), 0, math.cos(math.pi / 36)], atol=1e-5)
 
     def test_a_view_without_a_plane_says_so(self):
