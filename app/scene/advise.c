@@ -465,48 +465,47 @@ static void views_that_draw(unsigned curve, char need[NEED_SIZE])
 }
 
 /* True if the view does not use sizes or opacities of particles, as set by the key. */
-static bool lacks_view(const Scene *scene, const char *path, bool said, char need[NEED_SIZE])
+static bool lacks_view(const Scene *scene, const char *path, KeyUse use, char need[NEED_SIZE])
 {
     const unsigned curve = curve_of(path);
     const ViewKind *kind = view_find(scene->view.kind);
-    if (!curve || !said)
+    if (!curve || use == KEY_OF_FILE)
         return false;
     if (!kind || !(kind->curves & curve)) {
         views_that_draw(curve, need);
         return true;
     }
-    if (!kind->curves_where || key_owner_used(kind->curves_where, scene, said))
+    if (!kind->curves_where || key_owner_used(kind->curves_where, scene, use))
         return false;
     key_owner_condition(kind->curves_where, need, NEED_SIZE);
     return true;
 }
 
-static bool lacks_in_views(const Scene *scene, const char *path, bool said, char need[NEED_SIZE]);
+static bool lacks_in_views(const Scene *scene, const char *path, KeyUse use, char need[NEED_SIZE]);
 
 /* True if the key at `path` has no effect; `need` gets the missing condition. */
-static bool lacks(const Scene *scene, const char *path, bool said, char need[NEED_SIZE])
+static bool lacks(const Scene *scene, const char *path, KeyUse use, char need[NEED_SIZE])
 {
     const Key *key = scene_key_find(path);
-    const KeyOwner *owner = key ? key_owner(key) : NULL;
     if (key && key_list_of_mapping(path))
-        return lacks_in_views(scene, path, said, need);
-    if (lacks_sound(scene, path, need) || lacks_view(scene, path, said, need))
+        return lacks_in_views(scene, path, use, need);
+    if (lacks_sound(scene, path, need) || lacks_view(scene, path, use, need))
         return true;
-    if (!owner || key_owner_used(owner, scene, said))
-        return false;
-    key_owner_condition(owner, need, NEED_SIZE);
-    return true;
+    const KeyOwner *missing = key ? key_owner_missing(key, scene, use) : NULL;
+    if (missing)
+        key_owner_condition(missing, need, NEED_SIZE);
+    return missing != NULL;
 }
 
 /* Treats an entry of views as the scene's only view. */
-static bool lacks_in_views(const Scene *scene, const char *path, bool said, char need[NEED_SIZE])
+static bool lacks_in_views(const Scene *scene, const char *path, KeyUse use, char need[NEED_SIZE])
 {
     const int index = (int)strtol(strchr(path, '[') + 1, NULL, 10);
     char own[PATH_SIZE], text[NEED_SIZE];
     Scene one = *scene;
     one.view = *scene_view(scene, index);
     snprintf(own, sizeof own, "view%.200s", strchr(path, ']') + 1);
-    if (!lacks(&one, own, said, text))
+    if (!lacks(&one, own, use, text))
         return false;
     const char *view = strstr(text, "view.");
     if (view)
@@ -522,14 +521,14 @@ static bool lacks_in_views(const Scene *scene, const char *path, bool said, char
 void scene_advise_key(const Scene *scene, const char *path, Notes *notes)
 {
     char need[NEED_SIZE];
-    if (lacks(scene, path, true, need))
+    if (lacks(scene, path, KEY_SAID, need))
         notes_add(notes, NO_EFFECT, path, need);
 }
 
 bool scene_key_works(const Scene *scene, const char *path)
 {
     char need[NEED_SIZE];
-    return !lacks(scene, path, true, need);
+    return !lacks(scene, path, KEY_AT_PRESENT, need);
 }
 
 /* Visits each key with a value; paths are as people write them. */
@@ -547,7 +546,7 @@ static void walk(const YamlTree *tree, const YamlNode *node, const char *path, c
         char need[NEED_SIZE];
         if (!key || key->type == KEY_MAPPING || key->type == KEY_LIST || key->type == KEY_VARIANT)
             walk(tree, child, below, scene, notes);
-        else if (lacks(scene, below, child->said != NULL, need))
+        else if (lacks(scene, below, child->said ? KEY_SAID : KEY_OF_FILE, need))
             advise(tree, below, notes, NO_EFFECT, below, need);
     }
 }

@@ -377,14 +377,23 @@ static bool is_of_value(const Scene *scene, const Key *key, const char *value)
     return value ? strcmp(now, value) == 0 : strcmp(now, "none") != 0;
 }
 
-bool key_owner_used(const KeyOwner *owner, const Scene *scene, bool said)
+bool key_owner_used(const KeyOwner *owner, const Scene *scene, KeyUse use)
 {
     if (owner->command)
-        return scene->purpose == SCENE_FOR_CHART || !said;
+        return scene->purpose == SCENE_FOR_CHART || use == KEY_OF_FILE;
     const Key *key = scene_key_find(owner->key);
-    if (key->flags & KEY_LIVE && scene->purpose == SCENE_FOR_WINDOW)
+    if (key->flags & KEY_LIVE && scene->purpose == SCENE_FOR_WINDOW && use != KEY_AT_PRESENT)
         return true;
-    return (key->flags & KEY_IDLE && !said) || is_of_value(scene, key, owner->value);
+    return (key->flags & KEY_IDLE && use == KEY_OF_FILE) || is_of_value(scene, key, owner->value);
+}
+
+const KeyOwner *key_owner_missing(const Key *key, const Scene *scene, KeyUse use)
+{
+    const Key *above = mapping_of(key);
+    const KeyOwner *outer = above ? key_owner_missing(above, scene, use) : NULL;
+    if (outer)
+        return strcmp(outer->key ? outer->key : "", key->path) == 0 ? NULL : outer;
+    return key->owner && !key_owner_used(key->owner, scene, use) ? key->owner : NULL;
 }
 
 void key_owner_condition(const KeyOwner *owner, char *text, size_t size)
@@ -421,7 +430,7 @@ int scene_terms(const Scene *scene, SceneTerm terms[TERMS_MAX])
     const Key *keys = scene_keys(&count);
     for (const Key *key = keys; key < keys + count; key++) {
         const KeyOwner *owner = key->off ? key_owner(key) : NULL;
-        if (!key->off || (owner && !key_owner_used(owner, scene, true)))
+        if (!key->off || (owner && !key_owner_used(owner, scene, KEY_SAID)))
             continue;
         const Key *list = key_list(key);
         for (int e = 0; e < (list ? key_list_count(list, scene) : 1) && found < TERMS_MAX; e++) {

@@ -295,10 +295,16 @@ const char *key_element(const Key *list, const void *base, int index);
 /* The owner of a row, its own or of a mapping above; NULL: the key is always read. */
 const KeyOwner *key_owner(const Key *key);
 
-/* True if the scene uses the owner. `said`: the command line set the key, for this run only. A file, in
-   contrast, serves many runs, and may set up every view and the chart in advance. The window's user may
-   change live keys, such as the backend, at any time. */
-bool key_owner_used(const KeyOwner *owner, const Scene *scene, bool said);
+/* Who asks for the use of a key. A file serves many runs, and may set up every view and the chart in advance.
+   The command line sets a key for a single run; in the window live keys, such as the backend, may change
+   later. AT_PRESENT: no live key changes. */
+typedef enum KeyUse { KEY_OF_FILE, KEY_SAID, KEY_AT_PRESENT } KeyUse;
+
+/* True if the scene uses the owner. */
+bool key_owner_used(const KeyOwner *owner, const Scene *scene, KeyUse use);
+
+/* The outermost owner of a row and the mappings above that the scene does not use; NULL: all are used. */
+const KeyOwner *key_owner_missing(const Key *key, const Scene *scene, KeyUse use);
 
 /* "solver.step.mode: cfl" */
 void key_owner_condition(const KeyOwner *owner, char *text, size_t size);

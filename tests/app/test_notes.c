@@ -98,6 +98,16 @@ static const struct {
     {"view.size.curve=ends", "view.size.by=speed", "a scalar (view.size.by)", false},
     {"view.splat.ior=2", "view.kind=splat", "view.kind: splat", false},
     {"view.volume.look=water", "view.kind=volume", "view.kind: volume", false},
+    {"view.volume.opacity=0.5", "view={kind: volume, volume: {look: translucent}}", "view.kind: volume",
+     false},
+    {"view.volume.skin=0.2", "view={kind: volume, volume: {look: translucent}}", "view.kind: volume", false},
+    {"view.volume.ramp_from=0.1", "view={kind: volume, volume: {look: translucent}}", "view.kind: volume",
+     false},
+    {"view.volume.ramp_to=0.9", "view={kind: volume, volume: {look: translucent}}", "view.kind: volume",
+     false},
+    {"view.volume.curve=fog", "view={kind: volume, volume: {look: translucent}}", "view.kind: volume", false},
+    {"view.volume.ior=2", "view={kind: volume, volume: {look: water}}", "view.kind: volume", false},
+    {"view.volume.attenuation=3", "view={kind: volume, volume: {look: water}}", "view.kind: volume", false},
     {"view.slice.cut=0.5", "view.kind=slice", "view.kind: slice", false},
     {"view.pbsr.repeat=5", "view.kind=pbsr", "view.kind: pbsr", false},
     {"view.glyphs.stride=2", "view.glyphs.show=true", "view.glyphs.show: true", false},
@@ -144,6 +154,23 @@ static void a_key_without_its_owner_is_said(void **state)
         if (notes.lasting > 0)
             fail_msg("%s with %s: %s", set, owned[i].owner, notes.line[0]);
     }
+}
+
+/* The outer owner is said first, then the inner one. In the window a live key may bring an owner into use. */
+static void owners_are_within_owners(void **state)
+{
+    (void)state;
+    static Scene scene;
+    const Notes notes =
+        notes_of(column, "view.kind=volume", "view.volume.opacity=0.5", SCENE_FOR_ONE, &scene);
+    assert_int_equal(notes.count, 1);
+    assert_string_equal(notes.line[0], "--set view.volume.opacity=0.5: view.volume.opacity has no effect; it "
+                                       "needs view.volume.look: translucent");
+    assert_false(scene_key_works(&scene, "view.volume.opacity"));
+    assert_true(scene_key_works(&scene, "view.volume.look"));
+    assert_int_equal(
+        notes_of(column, "view.kind=volume", "view.volume.opacity=0.5", SCENE_FOR_WINDOW, &scene).count, 0);
+    assert_false(scene_key_works(&scene, "view.volume.opacity")); /* at present */
 }
 
 /* A view without particles or without a translucent field has no use for curves. */
@@ -301,6 +328,7 @@ int main(void)
         cmocka_unit_test(a_line_has_its_place),
         cmocka_unit_test(a_key_without_its_owner_is_said),
         cmocka_unit_test(every_owner_is_tried),
+        cmocka_unit_test(owners_are_within_owners),
         cmocka_unit_test(a_view_without_curves_is_said),
         cmocka_unit_test(only_the_owner_reads_its_keys),
         cmocka_unit_test(files_may_say_how_other_views_shall_be),

@@ -54,11 +54,11 @@ static void a_key_has_an_owner(void **state)
     char need[64];
     const KeyOwner *owner = key_owner(scene_key_find("solver.bounce"));
     assert_true(parse_text(LEAST, NULL, &scene, &error));
-    assert_false(key_owner_used(owner, &scene, false));
+    assert_false(key_owner_used(owner, &scene, KEY_OF_FILE));
     key_owner_condition(owner, need, sizeof need);
     assert_string_equal(need, "solver.method: toy");
     snprintf(scene.world.method, NAME_SIZE, "toy");
-    assert_true(key_owner_used(owner, &scene, false));
+    assert_true(key_owner_used(owner, &scene, KEY_OF_FILE));
 }
 
 /* A mapping passes the flag to the members; elements of lists have a flag per row. */

@@ -51,6 +51,10 @@ const VolumeDef volume_usual = {
 
 #define AT(field) offsetof(VolumeDef, field)
 
+/* The looks that alone read some keys. */
+static const KeyOwner translucent = {.key = "view.volume.look", .value = "translucent"},
+                      water = {.key = "view.volume.look", .value = "water"};
+
 /* clang-format off */
 const Key volume_keys[] = {
     MAPPING("view.volume", "of the view volume: the fluid's field on a grid of voxels"),
@@ -68,17 +72,17 @@ const Key volume_keys[] = {
     NUMBER("view.volume.slice", L, "", 0, 1, AT(slice), "where the slice is along that axis of the box"),
     CHOICE_OF("view.volume.look", L | KEY_INDEX | KEY_REBUILD, raycast_look_names, AT(raycast.look),
            "opaque: a surface; water: one that bends what is behind and mirrors the sky; translucent: by the transfer function, which is the next five"),
-    NUMBER("view.volume.opacity", L, "", 0, 1, AT(raycast.opacity), "full opacity: of fluid one spacing deep"),
-    NUMBER("view.volume.skin", L, "", 0, 1, AT(raycast.skin), "opacity of each surface that a ray crosses"),
-    NUMBER("view.volume.ramp_from", L, "", 0, 10, AT(raycast.ramp[0]), "the field at which opacity begins"),
-    NUMBER("view.volume.ramp_to", L, "", 0, 10, AT(raycast.ramp[1]), "and at which it is full; not above: at once"),
+    NUMBER("view.volume.opacity", L, "", 0, 1, AT(raycast.opacity), "full opacity: of fluid one spacing deep", .owner = &translucent),
+    NUMBER("view.volume.skin", L, "", 0, 1, AT(raycast.skin), "opacity of each surface that a ray crosses", .owner = &translucent),
+    NUMBER("view.volume.ramp_from", L, "", 0, 10, AT(raycast.ramp[0]), "the field at which opacity begins", .owner = &translucent),
+    NUMBER("view.volume.ramp_to", L, "", 0, 10, AT(raycast.ramp[1]), "and at which it is full; not above: at once", .owner = &translucent),
     POINTS("view.volume.curve", L, 0, 1, volume_presets, AT(raycast.curve),
-           "the share of the full opacity, by where the field is between these two; the skin goes with its ups and downs"),
+           "the share of the full opacity, by where the field is between these two; the skin goes with its ups and downs", .owner = &translucent),
     NUMBER("view.volume.level", L | O, "", 0, 10, AT(raycast.level),
            "of the field, where the surface of opaque and water is; a fluid that ends at a plane has 0.5 there"),
-    NUMBER("view.volume.ior", L, "", 1, 3, AT(raycast.ior), "index of refraction, of water"),
+    NUMBER("view.volume.ior", L, "", 1, 3, AT(raycast.ior), "index of refraction, of water", .owner = &water),
     NUMBER("view.volume.attenuation", L, "m", 0, 1e5, AT(raycast.attenuation),
-           "of water: through which white light becomes the fluid's colour; 0: two fifths of the box's longest side"),
+           "of water: through which white light becomes the fluid's colour; 0: two fifths of the box's longest side", .owner = &water),
     NUMBER("view.volume.step", L | O, "cells", 0, 10, AT(raycast.step), "between two samples of a ray"),
     NUMBER("view.volume.threshold", L | O, "", 0, 1, AT(raycast.threshold), "opacity at which a ray ends; 1: never"),
     BOOLEAN("view.volume.shadows", L | KEY_REBUILD, AT(raycast.shadows), "of the fluid on itself by marching to the light, instead of the shadow map"),
@@ -403,8 +407,6 @@ static void quality(ViewDef *def, ViewQuality wanted)
     if (draft && def->resolution == 1)
         def->resolution = 0.5;
 }
-
-static const KeyOwner translucent = {.key = "view.volume.look", .value = "translucent"};
 
 const ViewKind view_volume = {
     .name = "volume",
