@@ -218,24 +218,21 @@ bool panels_are_stale(const Panels *panels)
     return stale;
 }
 
-static double legend_part(const Panels *panels, int index)
+CoveredParts panels_legend(const Panels *panels)
 {
-    const PanelView *panel = &panels->panels[index];
-    const PanelRect *at = &panels->places[index];
-    return legend_width_pixels(&panel->def, &panel->world, at->height) / at->width;
-}
-
-double panels_legend(const Panels *panels)
-{
-    double widest = 0;
-    for (int i = 0; i < panels->count; i++)
-        widest = fmax(widest, legend_part(panels, i));
+    CoveredParts widest = {0};
+    for (int i = 0; i < panels->count; i++) {
+        const PanelView *panel = &panels->panels[i];
+        const PanelRect *at = &panels->places[i];
+        widest = covered_by_both(widest, legend_room(&panel->def, &panel->world, at->width, at->height));
+    }
     return widest;
 }
 
 static void cover(Panels *panels)
 {
-    const CoveredParts covered = {panels->count > 1 ? 0 : panels->covered_left, panels_legend(panels)};
+    CoveredParts covered = panels_legend(panels);
+    covered.left = panels->count > 1 ? 0 : panels->covered_left;
     for (int i = 0; i < panels->count; i++)
         renderer_set_covered(panels->panels[i].renderer, covered);
 }

@@ -69,8 +69,7 @@ void renderer_set_presents(Renderer *renderer, bool presents);
    bottom up. */
 void renderer_read_depth(const Renderer *renderer, float *depth);
 
-/* From the next picture on, an automatic camera leaves these fractions of the width free, 0 .. 1; on the
-   right at least the legend's width. */
+/* From the next picture on, an automatic camera leaves these parts free, and at least the legend's corner. */
 void renderer_set_covered(Renderer *renderer, CoveredParts covered);
 
 /* Effective from the next picture on. Returns false on failure (no font) and changes nothing. */
@@ -163,8 +162,8 @@ bool panels_set_title(Panels *panels, int index, const Title *title, Error *erro
    the width; a single panel uses renderer_set_covered. */
 bool panels_set_covered(Panels *panels, double left, Error *error);
 
-/* The fraction of a panel's width that automatic cameras leave free on the right: the widest legend. */
-double panels_legend(const Panels *panels);
+/* The corner of a panel that automatic cameras leave free: for the largest legend. */
+CoveredParts panels_legend(const Panels *panels);
 
 /* As renderer_set_late, for all panels. panels_are_stale: true if renderer_is_stale is true for any panel. */
 void panels_set_late(Panels *panels, bool late);

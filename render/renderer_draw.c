@@ -130,9 +130,9 @@ static void make_frame(Renderer *renderer, const Subject *subject, const Target 
     Frame *frame = &picture->frame;
     const ViewKind *kind = renderer->view ? view_kind(renderer->view) : NULL;
     const Target *shown = &renderer->target;
-    const double legend = legend_width_pixels(subject->def, subject->world, shown->height) / shown->width;
+    const CoveredParts legend = legend_room(subject->def, subject->world, shown->width, shown->height);
     frame_make(frame, subject, picture->particles, target, view_radii(kind, subject->def, picture->particles),
-               (CoveredParts){renderer->covered.left, fmax(renderer->covered.right, legend)});
+               covered_by_both(renderer->covered, legend));
     frame->fineness = fmaxf(1, (float)target->height / (float)shown->height);
     frame->plain = renderer->plain;
     frame->more = renderer->more;

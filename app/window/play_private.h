@@ -86,9 +86,8 @@ typedef struct PlayCamera {
 
 /* The area of the picture for the camera. */
 typedef struct CameraSight {
-    int width, height;   /* pixels */
-    double covered_left; /* of the width, 0 .. 1 */
-    double legend;       /* width kept free on the right for the legend, 0 .. 1 */
+    int width, height; /* pixels */
+    CoveredParts covered;
 } CameraSight;
 
 /* The present camera, automatic or in the hand. */
@@ -466,8 +465,11 @@ static inline CameraSight play_sight_in(const Play *play, int panel)
     const double covered = play_overlay_covered_left(&play->overlay, play->picture.width);
     const PanelRect at = picture_place(&play->picture, panel, covered);
     const bool one = play->model.open.scene.view_count == 0;
-    return (CameraSight){at.width, at.height, one ? covered : 0,
-                         play->picture.panels ? panels_legend(play->picture.panels) : 0};
+    CameraSight sight = {.width = at.width, .height = at.height};
+    if (play->picture.panels)
+        sight.covered = panels_legend(play->picture.panels);
+    sight.covered.left = one ? covered : 0;
+    return sight;
 }
 
 /* The area of the chosen view's panel. */

@@ -129,8 +129,7 @@ static const double REACH = 0.8; /* of the letters' height */
 static CoveredParts covered(const PlayModel *model, const ViewDef *view, const CameraSight *sight)
 {
     const WorldDef *world = model_world(model, view);
-    const double own = legend_width_pixels(view, world, sight->height) / sight->width;
-    return (CoveredParts){sight->covered_left, fmax(sight->legend, own)};
+    return covered_by_both(sight->covered, legend_room(view, world, sight->width, sight->height));
 }
 
 void camera_to_screen(const PlayModel *model, const ViewDef *view, const CameraSight *sight, double letters,

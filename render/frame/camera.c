@@ -65,37 +65,91 @@ static void look(Camera *camera, vec3 eye, vec3 at)
     memcpy(camera->eye, eye, sizeof camera->eye);
 }
 
-/* The part of the picture for the box: left and right in -1 .. 1, and up to +-high. */
+/* The part of the picture for the box's corners: within +-side and +-high, and not both right of and above
+   the legend's lower left corner. In -1 .. 1. */
 typedef struct FreeArea {
-    float left, right, high;
+    float side, high, legend[2];
 } FreeArea;
 
-static FreeArea make_free_area(double covered_right)
+static FreeArea make_free_area(double covered_right, double covered_top)
 {
-    FreeArea area = {-0.80F, 0.80F, 0.80F};
-    const float right = (float)(1 - 2 * covered_right - 0.04);
-    if (right < area.right) /* little room beside the legend: use more of the left side */
-        area.left = -0.92F, area.right = fmaxf(right, -0.5F);
-    return area;
+    static const float SIDE = 0.86F, HIGH = 0.80F;
+    const double beside = 0.03;
+    return (FreeArea){
+        SIDE, HIGH, {(float)(1 - 2 * covered_right - beside), (float)(1 - 2 * covered_top - beside)}};
 }
 
-/* The distance of the eye from the box's centre, in direction `back`, that keeps all corners inside the
-   room when the centre is in the room's middle: |x + shift| <= limit (distance - z). The shift is
-   proportional to the distance. */
-static float distance_to_fit(const Camera *camera, const double size[3], FreeArea area, vec3 back, vec3 right,
-                             vec3 up)
+/* The box seen from a side: its corners along the picture's axes, x and y in units of the tangents. */
+typedef struct SeenBox {
+    float corner[8][3];
+} SeenBox;
+
+static void see_box(const Camera *camera, const double size[3], vec3 back, vec3 right, vec3 up, SeenBox *seen)
 {
-    float distance = 0, half = (area.right - area.left) / 2;
     for (int corner = 0; corner < 8; corner++) {
         vec3 p;
         for (int k = 0; k < 3; k++)
             p[k] = (float)size[k] * ((corner >> k & 1) ? 0.5F : -0.5F);
-        float x = glm_vec3_dot(p, right) / camera->tangent[0], z = glm_vec3_dot(p, back);
-        float y = fabsf(glm_vec3_dot(p, up)) / camera->tangent[1];
-        distance = fmaxf(distance, (x + area.right * z) / half);
-        distance = fmaxf(distance, (-x - area.left * z) / half);
-        distance = fmaxf(distance, (y + area.high * z) / area.high);
+        seen->corner[corner][0] = glm_vec3_dot(p, right) / camera->tangent[0];
+        seen->corner[corner][1] = glm_vec3_dot(p, up) / camera->tangent[1];
+        seen->corner[corner][2] = glm_vec3_dot(p, back);
     }
+}
+
+/* True if all corners are in the area, with the box's centre at `middle` and the eye at that distance. */
+static bool fits(const SeenBox *seen, const FreeArea *area, const float middle[2], float distance)
+{
+    for (int corner = 0; corner < 8; corner++) {
+        const float *p = seen->corner[corner], before = distance - p[2];
+        const float x = (p[0] + middle[0] * distance) / before, y = (p[1] + middle[1] * distance) / before;
+        if (!(before > 0) || fabsf(x) > area->side || fabsf(y) > area->high ||
+            (x > area->legend[0] && y > area->legend[1]))
+            return false;
+    }
+    return true;
+}
+
+/* The least distance that fits: with more, all corners move straight to `middle`. */
+static float distance_to_fit(const SeenBox *seen, int count, const FreeArea *area, const float middle[2],
+                             float farthest)
+{
+    enum { HALVINGS = 24 };
+    float low = 0, high = farthest;
+    for (int i = 0; i < HALVINGS; i++) {
+        const float distance = 0.5F * (low + high);
+        bool good = true;
+        for (int k = 0; good && k < count; k++)
+            good = fits(&seen[k], area, middle, distance);
+        *(good ? &high : &low) = distance;
+    }
+    return high;
+}
+
+/* Places the box's centre where the box is largest; among equals nearest to the picture's middle. Returns
+   the distance. */
+static float place_to_fit(const SeenBox *seen, int count, const FreeArea *area, float farthest,
+                          float middle[2])
+{
+    static const float steps[] = {0.12F, 0.04F, 0.012F, 0.004F};
+    float best = INFINITY, distance = farthest;
+    middle[0] = middle[1] = 0;
+    for (int step = 0; step < 4; step++)
+        for (bool better = true; better;) {
+            const float from[2] = {middle[0], middle[1]};
+            better = false;
+            for (int k = 0; k < 9; k++) {
+                const float at[2] = {from[0] + steps[step] * (float)(k % 3 - 1),
+                                     from[1] + steps[step] * (float)(k / 3 - 1)};
+                if (fmaxf(fabsf(at[0]), fabsf(at[1])) > 0.5F)
+                    continue;
+                const float to = distance_to_fit(seen, count, area, at, farthest);
+                const float cost = to * (1 + 0.02F * (at[0] * at[0] + at[1] * at[1]));
+                if (cost < best * (1 - 1e-5F)) {
+                    best = cost, distance = to, better = true;
+                    middle[0] = at[0], middle[1] = at[1];
+                }
+            }
+        }
     return distance;
 }
 
@@ -109,6 +163,8 @@ void camera_anchor(const double box_size[3], const BoxState *box, float anchor[3
 
 static const double FLAT = 0.1; /* fraction of width and height */
 
+enum { SIDES = 24 };
+
 /* The picture's axes from a direction towards the eye. */
 static void make_axes(vec3 back, vec3 right, vec3 up)
 {
@@ -117,26 +173,27 @@ static void make_axes(vec3 back, vec3 right, vec3 up)
     glm_vec3_crossn(back, right, up);
 }
 
-/* The distance that shows the whole box from all sides: a turning camera keeps the distance. */
-static float distance_all_around(const Camera *camera, const double size[3], FreeArea area, vec3 back)
+/* The box from all sides, for a turning camera, which keeps its distance. Returns the number of sides. */
+static int see_all_around(const Camera *camera, const double size[3], vec3 back, SeenBox seen[SIDES])
 {
-    enum { SIDES = 48 };
-    float distance = 0;
     for (int side = 0; side < SIDES; side++) {
         vec3 turned, right, up;
         glm_vec3_copy(back, turned);
         glm_vec3_rotate(turned, (float)(2 * M_PI * side / SIDES), (vec3){0, 1, 0});
         make_axes(turned, right, up);
-        distance = fmaxf(distance, distance_to_fit(camera, size, area, turned, right, up));
+        see_box(camera, size, turned, right, up, &seen[side]);
     }
-    return distance;
+    return SIDES;
 }
 
 static void look_at_box(Camera *camera, const ViewDef *def, const double size[3], const BoxState *box,
-                        double covered_right)
+                        const FreeArea *area)
 {
     vec3 at, eye, back = {0.50F, 0.42F, 1}, right, up;
-    FreeArea area = make_free_area(covered_right);
+    SeenBox seen[SIDES];
+    float middle[2];
+    int count = 1;
+    const double diagonal = sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]);
     if (size[2] < FLAT * fmin(size[0], size[1])) /* a flat box is seen from the front, like a picture */
         back[0] = back[1] = 0;
     if (def->camera_turn != 0)
@@ -144,9 +201,14 @@ static void look_at_box(Camera *camera, const ViewDef *def, const double size[3]
     make_axes(back, right, up);
     camera_anchor(size, box, at);
     at[1] += (float)size[1] / 2;
-    float distance = def->camera_turn != 0 ? distance_all_around(camera, size, area, back)
-                                           : distance_to_fit(camera, size, area, back, right, up);
-    glm_vec3_muladds(right, -(area.left + area.right) / 2 * camera->tangent[0] * distance, at);
+    if (def->camera_turn != 0)
+        count = see_all_around(camera, size, back, seen);
+    else
+        see_box(camera, size, back, right, up, seen);
+    const float farthest = (float)(4 * diagonal / fminf(camera->tangent[0], camera->tangent[1]));
+    const float distance = place_to_fit(seen, count, area, farthest, middle);
+    glm_vec3_muladds(right, -middle[0] * camera->tangent[0] * distance, at);
+    glm_vec3_muladds(up, -middle[1] * camera->tangent[1] * distance, at);
     glm_vec3_copy(at, eye);
     glm_vec3_muladds(back, distance, eye);
     look(camera, eye, at);
@@ -154,7 +216,7 @@ static void look_at_box(Camera *camera, const ViewDef *def, const double size[3]
 
 /* The camera of the uncovered part, without the area covered on the left. */
 static void make_free(const ViewDef *def, const double box_size[3], const BoxState *box, double aspect,
-                      double covered_right, Camera *camera)
+                      const FreeArea *area, Camera *camera)
 {
     static const double auto_fov_deg = 32; /* a long lens: little perspective in the box */
     double fov = def->camera_auto ? auto_fov_deg : def->camera.fov_deg;
@@ -164,7 +226,7 @@ static void make_free(const ViewDef *def, const double box_size[3], const BoxSta
     camera->near_plane = (float)(1e-3 * diagonal); /* infinite reversed float depth loses no precision by a
                                                       near plane this close */
     if (def->camera_auto) {
-        look_at_box(camera, def, box_size, box, covered_right);
+        look_at_box(camera, def, box_size, box, area);
         return;
     }
     vec3 eye, at;
@@ -175,6 +237,11 @@ static void make_free(const ViewDef *def, const double box_size[3], const BoxSta
     look(camera, eye, at);
 }
 
+CoveredParts covered_by_both(CoveredParts a, CoveredParts b)
+{
+    return (CoveredParts){fmax(a.left, b.left), fmax(a.right, b.right), fmax(a.top, b.top)};
+}
+
 void camera_make(const ViewDef *def, const double box_size[3], const BoxState *box, double aspect,
                  CoveredParts covered, Camera *camera)
 {
@@ -182,7 +249,8 @@ void camera_make(const ViewDef *def, const double box_size[3], const BoxState *b
     *camera = (Camera){.centre = {(float)covered.left}};
     /* beside a panel, a legend over a corner of the box is better than a tiny box */
     const bool narrow = covered.left > 0 && covered.right > 0.4 * open;
-    make_free(def, box_size, box, aspect * open, narrow ? 0 : covered.right / open, camera);
+    const FreeArea area = make_free_area(narrow ? 0 : covered.right / open, narrow ? 0 : covered.top);
+    make_free(def, box_size, box, aspect * open, &area, camera);
     camera->tangent[0] = (float)(camera->tangent[1] * aspect); /* the picture extends by the covered part
                                                                   on the left */
 }

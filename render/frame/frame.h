@@ -173,12 +173,15 @@ typedef struct Camera {
     float near_plane; /* m */
 } Camera;
 
-/* The parts of a picture covered by a panel (left) and a legend (right): fractions of the width, 0 .. 1.
-   Any camera moves the view's axis to the middle of the area right of the panel; an automatic camera also
-   keeps clear of the legend. */
+/* The parts of a picture covered by a panel on the left, and by a legend in the upper right corner: fractions
+   of width (left, right) and height (top), 0 .. 1. Any camera moves the view's axis to the middle of the area
+   right of the panel; an automatic camera also keeps the box's corners clear of the legend. */
 typedef struct CoveredParts {
-    double left, right;
+    double left, right, top;
 } CoveredParts;
+
+/* The larger of each part. */
+CoveredParts covered_by_both(CoveredParts a, CoveredParts b);
 
 /* The squared tangent of the largest angle between a ray and the axis. */
 float camera_max_slant_squared(const Camera *camera);

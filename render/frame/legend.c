@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { TICKS_MOST = 7, SCALAR_WIDTH_EM = 8 };
+enum { TICKS_MOST = 7, SCALAR_WIDTH_EM = 8, SCALAR_HEIGHT_EM = 15 };
 
 /* Positions in units of the letter height: the legend grows with the picture. */
 typedef struct LegendLayout {
@@ -44,18 +44,38 @@ float legend_text_pixels(int height)
     return pixels < 11 ? 11 : pixels;
 }
 
-double legend_width_pixels(const ViewDef *def, const WorldDef *world, int height)
+/* Estimate, in letter heights. */
+static double fluids_width_em(const WorldDef *world)
 {
     double letters = 0;
-    if (!def->legend || (view_color_by(def) == SCALAR_FLUID && world->fluid_count == 0))
-        return 0;
     for (int i = 0; i < world->fluid_count; i++) {
         char words[NAME_SIZE + 32];
         fluid_words(&world->fluids[i], words);
         letters = fmax(letters, (double)strlen(words));
     }
-    double width_em = view_color_by(def) == SCALAR_FLUID ? 3.3 + 0.6 * letters : SCALAR_WIDTH_EM;
-    return (width_em + 1) * legend_text_pixels(height);
+    return 3.3 + 0.6 * letters;
+}
+
+static double fluids_height_em(const WorldDef *world)
+{
+    return 1.6 * world->fluid_count + 0.9;
+}
+
+double legend_width_pixels(const ViewDef *def, const WorldDef *world, int height)
+{
+    const bool fluids = view_color_by(def) == SCALAR_FLUID;
+    if (!def->legend || (fluids && world->fluid_count == 0))
+        return 0;
+    return ((fluids ? fluids_width_em(world) : SCALAR_WIDTH_EM) + 1) * legend_text_pixels(height);
+}
+
+CoveredParts legend_room(const ViewDef *def, const WorldDef *world, int width, int height)
+{
+    const double em = legend_text_pixels(height), around = 1; /* to the picture's edges */
+    if (!def->legend)
+        return (CoveredParts){0};
+    return (CoveredParts){.right = (fmax(fluids_width_em(world), SCALAR_WIDTH_EM) + around) * em / width,
+                          .top = (fmax(fluids_height_em(world), SCALAR_HEIGHT_EM) + around) * em / height};
 }
 
 int legend_ticks(double min, double max, int most, double ticks[], int *decimals)
@@ -179,19 +199,18 @@ static void draw_curves(Text *text, const Frame *frame, float bottom)
 /* Returns the height in letter heights, as does draw_fluids. */
 static float draw_scalar(Text *text, const Frame *frame)
 {
-    enum { HEIGHT_EM = 15 };
     char unit[32], title[80];
     legend_unit(frame->colors.unit, unit);
     snprintf(title, sizeof title, "%s%s%s", frame->colors.name, *unit ? ", " : "", unit);
     const float widest = text_width(text, 1, title) / text_height(text) + 1.6F; /* room for long names */
-    LegendLayout layout = make_layout(text, frame, fmaxf(SCALAR_WIDTH_EM, widest), HEIGHT_EM);
+    LegendLayout layout = make_layout(text, frame, fmaxf(SCALAR_WIDTH_EM, widest), SCALAR_HEIGHT_EM);
     float em = layout.em, x = layout.left + 0.8F * em, y0 = layout.top + 3.0F * em,
           y1 = layout.bottom - 1.0F * em;
     text_rectangle(text, layout.left, layout.top, layout.right, layout.bottom, 0.5F * em, layout.panel);
     text_draw(text, x, layout.top + 0.8F * em, 1, layout.ink, TEXT_LEFT, title);
     draw_bar(text, frame->def, frame->colors.beyond, x, y0, x + 1.2F * em, y1);
     draw_ticks(text, &layout, frame->colors.range, x + 1.2F * em, y0, y1);
-    return HEIGHT_EM;
+    return SCALAR_HEIGHT_EM;
 }
 
 static float encode(float linear)
@@ -216,7 +235,7 @@ static float draw_fluids(Text *text, const Frame *frame)
         fluid_words(&world->fluids[i], words[i]);
         widest = fmaxf(widest, text_width(text, 1, words[i]) / text_height(text));
     }
-    const float height = 1.6F * (float)world->fluid_count + 0.9F;
+    const float height = (float)fluids_height_em(world);
     LegendLayout layout = make_layout(text, frame, widest + 3.3F, height);
     float em = layout.em, x = layout.left + 0.8F * em;
     text_rectangle(text, layout.left, layout.top, layout.right, layout.bottom, 0.5F * em, layout.panel);

@@ -136,6 +136,10 @@ float legend_text_pixels(int height);
    Estimates the width of the fluids' names: exact widths need a font. */
 double legend_width_pixels(const ViewDef *def, const WorldDef *world, int height);
 
+/* The corner of a picture to keep free for the legend, the same for the fluids and for all scalars: the box
+   does not move from view to view. Nothing without a legend. */
+CoveredParts legend_room(const ViewDef *def, const WorldDef *world, int width, int height);
+
 /* The title of a picture, in the upper left corner: for one of several panels (render/renderer.h). */
 
 enum { TITLE_SIZE = 160 };

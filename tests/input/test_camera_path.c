@@ -79,7 +79,7 @@ static void test_turn_about_the_box(void **state)
     for (int second = 0; second < 36; second += 3) {
         Camera camera;
         const ViewDef at = camera_at(&def, second);
-        camera_make(&at, size, &box, 1.5, (CoveredParts){0, 0}, &camera);
+        camera_make(&at, size, &box, 1.5, (CoveredParts){0}, &camera);
         const float away = hypotf(camera.eye[0], camera.eye[2]);
         first = second == 0 ? away : first;
         assert_true(fabsf(away - first) < 1e-4F * first);

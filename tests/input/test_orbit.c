@@ -67,12 +67,12 @@ static void it_begins_with_the_automatic_picture(void **state)
     const ViewDef def = automatic();
     BoxState moved = {.position = {0.5, 0.1, -0.7}, .orientation = {0, 0.6, 0, 0.8}};
     static const CoveredParts covered[] = {
-        {0}, {0, 0.15}, {0, 0.4}, {0.3, 0.15}}; /* the camera goes off the centre for the legend */
+        {0}, {0, 0.15, 1}, {0, 0.4, 1}, {0.3, 0.15, 1}}; /* the camera goes off the centre for the legend */
     for (int i = 0; i < 3; i++) {
         check_same_picture(&def, &home, covered[i]);
         check_same_picture(&def, &moved, covered[i]);
     }
-    const Orbit orbit = orbit_begin(&def, size, &home, aspect, (CoveredParts){0, 0.4});
+    const Orbit orbit = orbit_begin(&def, size, &home, aspect, (CoveredParts){0, 0.4, 1});
     assert_true(fabs(orbit.shift[0]) > 0.01); /* otherwise the loop is not tested */
 }
 
@@ -83,7 +83,7 @@ static void it_begins_with_the_scenes_own_picture(void **state)
                                      {0, -3, 0},  {0.5, -2, 0}, {300, 200, 100}, {0.01, 0.11, 0}};
     for (size_t i = 0; i < sizeof from / sizeof from[0]; i++) {
         const ViewDef def = explicit_at(from[i][0], from[i][1], from[i][2]);
-        check_same_picture(&def, &home, (CoveredParts){0, 0.2});
+        check_same_picture(&def, &home, (CoveredParts){0, 0.2, 1});
     }
 }
 
@@ -150,7 +150,7 @@ static void the_box_stays_in_its_place_of_the_picture(void **state)
     (void)state;
     static const double centre[3] = {0, 0.15, 0};
     const ViewDef def = automatic();
-    Orbit orbit = orbit_begin(&def, size, &home, aspect, (CoveredParts){0, 0.4});
+    Orbit orbit = orbit_begin(&def, size, &home, aspect, (CoveredParts){0, 0.4, 1});
     double before[2], after[2];
     pixel_of(&orbit, centre, before);
     assert_true(before[0] < 0.49 * WIDTH); /* beside the legend */
@@ -165,7 +165,7 @@ static void a_pan_takes_the_point_along(void **state)
 {
     (void)state;
     const ViewDef def = automatic();
-    Orbit orbit = orbit_begin(&def, size, &home, aspect, (CoveredParts){0, 0.3});
+    Orbit orbit = orbit_begin(&def, size, &home, aspect, (CoveredParts){0, 0.3, 1});
     orbit_turn(&orbit, 0.7, 0.2);
     double right[3], up[3], away[3], point[3], before[2], after[2];
     orbit_axes(&orbit, right, up, away);
@@ -227,7 +227,7 @@ static void metres_per_pixel(void **state)
     static const double centre[3] = {0, 0.15, 0};
     const ViewDef def = automatic();
     double before[2], after[2], right[3], up[3], away[3], moved[3];
-    orbit = orbit_begin(&def, size, &home, aspect, (CoveredParts){0, 0.3});
+    orbit = orbit_begin(&def, size, &home, aspect, (CoveredParts){0, 0.3, 1});
     orbit_axes(&orbit, right, up, away);
     pixel_of(&orbit, centre, before);
     for (int k = 0; k < 3; k++)

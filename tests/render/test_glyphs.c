@@ -389,8 +389,7 @@ static void project(const Wind *wind, const ViewDef *def, const double at[3], do
 {
     Camera camera;
     double depth;
-    camera_make(def, wind->state.box_size, &wind->state.box, (double)WIDE / HIGH, (CoveredParts){0, 0},
-                &camera);
+    camera_make(def, wind->state.box_size, &wind->state.box, (double)WIDE / HIGH, (CoveredParts){0}, &camera);
     assert_true(camera_project(&camera, at, WIDE, HIGH, pixel, &depth));
 }
 
@@ -408,8 +407,9 @@ static double reach_of(const uint8_t *rgb, const uint8_t *empty, const double fr
     return reach;
 }
 
-/* From the foot to foot + scale x vector, to the pixel, in every direction. The last 1.7 pixels of a tip,
-   with a half width of three tenths of the rest, may fall between pixel centres; the foot is a disc. */
+/* From the foot to foot + scale x vector, to the pixel, in every direction. A tip's half width is three
+   tenths of the rest: a disc of half a pixel's diagonal, which holds a pixel centre wherever the tip is, fits
+   in 2.46 pixels from the end. The foot is a disc. */
 static void an_arrow_ends_where_it_should(void **state)
 {
     (void)state;
@@ -436,7 +436,7 @@ static void an_arrow_ends_where_it_should(void **state)
         const double length = hypot(to[0] - from[0], to[1] - from[1]), ahead = reach_of(rgb, empty, from, to);
         const double behind =
             -reach_of(rgb, empty, from, (double[2]){2 * from[0] - to[0], 2 * from[1] - to[1]});
-        if (!(ahead < length + 0.71 && ahead > length - 1.7 && fabs(behind) < 1.5))
+        if (!(ahead < length + 0.71 && ahead > length - 2.46 && fabs(behind) < 1.5))
             fail_msg("arrow %d is %g pixels long and begins at %g, it should be %g", i, ahead, behind,
                      length);
     }

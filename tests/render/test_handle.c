@@ -28,7 +28,7 @@ static Sight sight_from(double x, double y, double z)
     memcpy(def.camera.from, (double[3]){x, y, z}, sizeof def.camera.from);
     memcpy(def.camera.to, sight.box.position, sizeof def.camera.to);
     def.camera.fov_deg = 45;
-    camera_make(&def, size, &sight.box, (double)WIDE / HIGH, (CoveredParts){0, 0}, &sight.camera);
+    camera_make(&def, size, &sight.box, (double)WIDE / HIGH, (CoveredParts){0}, &sight.camera);
     return sight;
 }
 
@@ -74,7 +74,7 @@ static void what_is_looked_at_is_in_the_middle_of_what_is_free(void **state)
         const double left = i * 0.4;
         double at[2], up[2], depth;
         Camera camera;
-        camera_make(&def, size, &box, aspect, (CoveredParts){left, 0.2}, &camera);
+        camera_make(&def, size, &box, aspect, (CoveredParts){left, 0.2, 1}, &camera);
         assert_true(camera_project(&camera, def.camera.to, WIDE, HIGH, at, &depth));
         assert_true(camera_project(&camera, (double[]){0.1, 0.6, 0}, WIDE, HIGH, up, &depth));
         if (fabs(at[0] - WIDE * (1 + left) / 2) > 1e-3 || fabs(at[1] - HIGH / 2.0) > 1e-3)

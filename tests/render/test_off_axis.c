@@ -61,7 +61,7 @@ static void draw(const ViewDef *def, const WorldDef *world, int width, double co
         fail_msg("%s", error.message);
     Particles *particles = particles_wave(SPACING);
     particles_spare(particles, world, SPACING);
-    renderer_set_covered(renderer, (CoveredParts){covered, 0});
+    renderer_set_covered(renderer, (CoveredParts){.left = covered});
     for (int i = trails_def(def)->show ? -12 : 0; i <= 0; i++) {
         ParticleBuffers state;
         Upload *upload = upload_moving(particles, &state, 0.04 * i);

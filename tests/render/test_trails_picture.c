@@ -78,7 +78,7 @@ static void project(const Show *show, const double at[3], double pixel[2])
     Camera camera;
     double depth;
     const ParticleBuffers *state = &show->movers->state;
-    camera_make(&show->def, state->box_size, &state->box, (double)WIDE / HIGH, (CoveredParts){0, 0}, &camera);
+    camera_make(&show->def, state->box_size, &state->box, (double)WIDE / HIGH, (CoveredParts){0}, &camera);
     assert_true(camera_project(&camera, at, WIDE, HIGH, pixel, &depth));
 }
 

@@ -3,6 +3,8 @@
 #include "tests/scratch.h"
 
 #include "app/scene/scene.h"
+#include "render/frame/frame.h"
+#include "render/frame/passes.h"
 #include "sim/flow/flow.h"
 #include "sim/gpu/gl.h"
 #include "sim/start/start.h"
@@ -50,6 +52,48 @@ static int each_scene(void (*visit)(const char *name))
     }
     closedir(scenes);
     return count;
+}
+
+/* True if all corners of the box are in the picture, and none is below the legend. */
+static bool shows_the_box(const Scene *of, int width, int height)
+{
+    const double *size = of->world.box_size, edge = 0.01;
+    const CoveredParts legend = legend_room(&of->view, &of->world, width, height);
+    const ViewDef seen = camera_at(&of->view, 0);
+    BoxState box;
+    Camera camera;
+    box_state_at(of->world.motions, of->world.motion_count, size[1], 0, &box);
+    camera_make(&seen, size, &box, (double)width / height, (CoveredParts){0}, &camera);
+    for (int i = 0; i < 8; i++) {
+        const double corner[3] = {size[0] * ((i & 1) - 0.5), size[1] * (i >> 1 & 1),
+                                  size[2] * ((i >> 2) - 0.5)};
+        double at[3], pixel[2], depth;
+        box_to_world(&box, corner, NULL, at, NULL);
+        if (!camera_project(&camera, at, width, height, pixel, &depth) || pixel[0] < edge * width ||
+            pixel[0] > (1 - edge) * width || pixel[1] < edge * height || pixel[1] > (1 - edge) * height ||
+            (pixel[0] > (1 - legend.right) * width && pixel[1] < legend.top * height))
+            return false;
+    }
+    return true;
+}
+
+static int own_cameras;
+
+static void check_camera(const char *name)
+{
+    if (!load(name, 0))
+        fail_msg("%s", error.message);
+    own_cameras += !scene.view.camera_auto;
+    if (!scene.view.camera_auto && !shows_the_box(&scene, 1280, 720))
+        fail_msg("%s cuts off the box, or its legend covers a corner", name);
+}
+
+/* Cameras of papers/ show parts, as the papers' figures. */
+static void cameras_show_the_whole_box(void **state)
+{
+    (void)state;
+    each_scene(check_camera);
+    assert_true(own_cameras > 10);
 }
 
 static void check_scene(const char *name)
@@ -205,6 +249,7 @@ int main(void)
     backends_add();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_shipped_scene_loads),
+        cmocka_unit_test(cameras_show_the_whole_box),
         cmocka_unit_test(particles_come_near_in_every_scene),
         cmocka_unit_test(scenes_are_found_beside_the_sources),
         cmocka_unit_test(a_file_here_goes_first),

@@ -55,7 +55,7 @@ static float *distances(Scene3 *scene)
     if (!renderer)
         fail_msg("%s", error.message);
     camera_make(&scene->def, scene->state.box_size, &scene->state.box, (double)WIDTH / HEIGHT,
-                (CoveredParts){0, 0}, &scene->camera);
+                (CoveredParts){0}, &scene->camera);
     float *depth = calloc(WIDTH * HEIGHT, sizeof *depth);
     assert_non_null(depth);
     renderer_draw(renderer, &buffers, NULL);

@@ -76,7 +76,7 @@ static Frame frame_of_clear_fluid(ViewDef *def, WorldDef *world)
     const ParticleBuffers box = box_state(1, SPACING);
     const Subject subject = {def, world};
     def->floor = true;
-    frame_make(&frame, &subject, &box, &target, view_ball_radii(def, &box, 1), (CoveredParts){0, 0});
+    frame_make(&frame, &subject, &box, &target, view_ball_radii(def, &box, 1), (CoveredParts){0});
     frame.fluid.clear = CLEAR_FLUID_LIGHT, frame.fluid.refraction = (float)IOR;
     return frame;
 }

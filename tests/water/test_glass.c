@@ -110,7 +110,7 @@ static void panes_mirror_by_fresnels_formula(void **state)
     const ParticleBuffers box = box_state(0, SPACING);
     float to_world[16], eye[3];
     int checked = 0, seen = 0;
-    camera_make(&def, box.box_size, &box.box, (double)WIDTH / HEIGHT, (CoveredParts){0, 0}, &camera);
+    camera_make(&def, box.box_size, &box.box, (double)WIDTH / HEIGHT, (CoveredParts){0}, &camera);
     matrix_invert_rigid(camera.view, to_world);
     matrix_transform(to_world, (float[3]){0}, eye);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {

@@ -71,8 +71,7 @@ static double seen_at(const Scene4 *scene, const Image *image, const float place
     Camera camera;
     float at[3];
     const ParticleBuffers state = box_state(0, SPACING);
-    camera_make(&scene->def, state.box_size, &state.box, (double)WIDTH / HEIGHT, (CoveredParts){0, 0},
-                &camera);
+    camera_make(&scene->def, state.box_size, &state.box, (double)WIDTH / HEIGHT, (CoveredParts){0}, &camera);
     matrix_transform(camera.view, place, at);
     const int x = (int)((0.5F + 0.5F * at[0] / (-at[2] * camera.tangent[0])) * WIDTH),
               y = (int)((0.5F - 0.5F * at[1] / (-at[2] * camera.tangent[1])) * HEIGHT);
