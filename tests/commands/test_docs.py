@@ -1,6 +1,8 @@
 """The pages of docs/ and the READMEs: what the program makes of them is new, examples load, commands are there; how
 tools/docs makes pictures anew."""
+import contextlib
 import importlib.machinery
+import io
 import json
 import os
 import pathlib
@@ -87,7 +89,65 @@ class Pictures(CommandTest):
         self.assertEqual(docs.differs(pathlib.Path(self.path('none.png')), paths[0]), 1)
 
 
+class Older(CommandTest):
+    """Pictures that are older than what they show, in a small tree: a scene, a page, a golden picture of its view."""
+    PAGE = ('```\nffmpeg -v error -y -f lavfi -i color={}:size=16x16 -frames:v 1 x/pictures/a.png; echo slosh render tank\n```\n'
+            '```\ncp x/pictures/a.png x/pictures/b.png\n```\n')
+
+    def setUp(self):
+        super().setUp()
+        for name in 'scenes', 'tests/images', 'x/pictures', 'docs':
+            os.makedirs(self.path(name))
+        self.write('scenes/tank.yaml', 'view: {kind: splat}\n')
+        self.write('scenes/other.yaml', 'view: {kind: slice}\n')
+        for view in 'spheres', 'splat_water', 'slice':
+            self.write(f'tests/images/{view}.png', 'golden')
+        self.write('page.md', self.PAGE.format('red'))
+        subprocess.run(['git', 'init', '-q', '.'], cwd=self.folder, check=True)
+        self.docs = tool('docs')
+        self.docs.ROOT = pathlib.Path(self.folder)
+        with contextlib.redirect_stdout(io.StringIO()), self.assertRaises(SystemExit) as made:
+            for name in 'a', 'b':  # both are there before
+                subprocess.run(['ffmpeg', '-v', 'error', '-f', 'lavfi', '-i', 'color=blue:size=8x8', '-frames:v', '1', self.path(f'x/pictures/{name}.png')], check=True)
+            self.docs.make_pictures([])
+        self.assertEqual(made.exception.code, 0)
+
+    def older(self):
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(io.StringIO()), self.assertRaises(SystemExit):
+            self.docs.check_pictures()
+        return sorted(re.findall(r'/(\w+)\.png is older', said.getvalue()))
+
+    def test_what_was_made_is_new(self):
+        self.assertEqual(self.older(), [])
+        self.assertEqual(self.read('x/pictures/a.png'), self.read('x/pictures/b.png'))
+        self.assertNotIn('older', self.read('docs/pictures.txt').decode())
+
+    def test_what_changes_makes_them_older(self):
+        """The scene, the golden picture of its view, the command; and not those of others."""
+        for name, old in (('scenes/other.yaml', []), ('tests/images/slice.png', []), ('tests/images/splat_water.png', ['a']),
+                          ('scenes/tank.yaml', ['a']), ('tests/images/spheres.png', ['b'])):
+            before = self.read(name)
+            self.write(name, before + b' ')
+            self.assertEqual(self.older(), old, name)
+            self.write(name, before)
+        self.write('page.md', self.PAGE.format('green'))
+        self.assertEqual(self.older(), ['a'])
+        self.docs.write_list(self.docs.digests(), set())
+        self.assertEqual(self.older(), [])
+        self.assertEqual(self.read('docs/pictures.txt').decode().count('older'), 1)
+        with contextlib.redirect_stdout(io.StringIO()), self.assertRaises(SystemExit):
+            self.docs.make_pictures(['a.png'])
+        self.assertEqual((self.older(), self.read('docs/pictures.txt').decode().count('older')), ([], 0))
+
+
 class Docs(CommandTest):
+    def test_pictures_are_new_or_marked(self):
+        """By docs/pictures.txt; each is made by a command of a page."""
+        done = subprocess.run([ROOT / 'tools/docs', 'pictures', '--check'], capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stdout), (0, ''), done.stderr)
+        self.assertEqual([picture for picture, digest in tool('docs').digests().items() if not digest], [])
+
     def test_what_the_program_makes_is_new(self):
         done = subprocess.run([ROOT / 'tools/docs', '--check'], env={**os.environ, 'SLOSH': command.PROGRAM},
                               capture_output=True, text=True, check=False)

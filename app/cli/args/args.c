@@ -383,7 +383,7 @@ static bool parse_command(ArgsParser *parser)
     return begin_command(parser, command ? command : parser->commands[0]);
 }
 
-/* Checks the options together; none may be missing. */
+/* Checks the options together, and for missing ones. */
 static bool check_whole(const ArgsParser *parser)
 {
     const Args *args = parser->args;
