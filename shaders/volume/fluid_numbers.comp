@@ -1,4 +1,4 @@
-// Fluids as numbers, for averaging (render/views/volume/volume_private.h).
+// A number of each particle's fluid, for averaging (render/views/volume/volume_private.h).
 #include "common/particles.glsl"
 #include "common/particle_fluids.glsl"
 #include "shaders/volume/volume_bindings.h"
@@ -6,10 +6,11 @@
 layout(local_size_x = 64) in;
 layout(std430, binding = FLUID_NUMBERS_STORAGE) writeonly buffer Numbers { float numbers[]; };
 layout(location = FLUID_COUNT_AT) uniform uint count;
+layout(location = FLUID_VALUES_AT) uniform float of_fluid[FLUID_VALUES_MAX];
 
 void main()
 {
     uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x;
     if (index < count)
-        numbers[index] = float(fluid_words[index * fluid_stride]);
+        numbers[index] = of_fluid[min(fluid_words[index * fluid_stride], FLUID_VALUES_MAX - 1u)];
 }

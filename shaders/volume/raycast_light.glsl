@@ -20,9 +20,21 @@ float scalar_at(vec3 at)
 }
 #endif
 
+#ifdef TINTED // the scalar's sum is of the fluids' red
+layout(binding = GREEN_UNIT) uniform sampler3D green_map;
+layout(binding = BLUE_UNIT) uniform sampler3D blue_map;
+#endif
+
 // `share`: position of the scalar in its range, 0..1.
 vec3 albedo_at(vec3 at, out float share)
 {
+#ifdef TINTED
+    float field = field_at(at);
+    vec3 place = clamp(at, field_low, field_high);
+    share = 1.0;
+    return vec3(textureLod(field_scalar_map, place, 0.0).x, textureLod(green_map, place, 0.0).x, textureLod(blue_map, place, 0.0).x) /
+           max(field, 1e-12);
+#else
     float value = scalar_at(at);
     if (by_fluid != 0u) { // fluid numbers: neighbours in the list mix
         float first = clamp(floor(value), 0.0, 6.0);
@@ -31,6 +43,7 @@ vec3 albedo_at(vec3 at, out float share)
     }
     share = clamp((value - range_low) * range_scale, 0.0, 1.0);
     return texelFetch(colormap, ivec2(share * 255.0 + 0.5, 0), 0).rgb;
+#endif
 }
 #else
 vec3 albedo_at(vec3 at, out float share)

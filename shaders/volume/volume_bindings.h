@@ -32,6 +32,9 @@
 /* a second volume for opacity, bound in order by a single call */
 #define OPACITY_FIELD_UNIT  16
 #define OPACITY_SCALAR_UNIT 17
+/* sums of the fluids' green and blue, bound in order by a single call */
+#define GREEN_UNIT 18
+#define BLUE_UNIT  19
 
 /* Image units */
 #define FIELD_IMAGE        0
@@ -59,5 +62,7 @@
 #define SOLID_HIGH_AT     32
 #define SOLID_COLOR_AT    33
 #define SOLID_CELL_AT     34
+#define FLUID_VALUES_AT   35 /* FLUID_VALUES_MAX locations */
+#define FLUID_VALUES_MAX  8
 
 #endif

@@ -211,6 +211,7 @@ GL_CALL(CALL_OTHER, void, glTransformFeedbackBufferBase, (GLuint a, GLuint b, GL
 GL_CALL(CALL_OTHER, void, glTransformFeedbackVaryings,
         (GLuint a, GLsizei b, const GLchar *const *c, GLenum d), (a, b, c, d))
 GL_CALL(CALL_OTHER, void, glUniform1f, (GLint a, GLfloat b), (a, b))
+GL_CALL(CALL_OTHER, void, glUniform1fv, (GLint a, GLsizei b, const GLfloat *c), (a, b, c))
 GL_CALL(CALL_OTHER, void, glUniform1i, (GLint a, GLint b), (a, b))
 GL_CALL(CALL_OTHER, void, glUniform1ui, (GLint a, GLuint b), (a, b))
 GL_CALL(CALL_OTHER, void, glUniform2f, (GLint a, GLfloat b, GLfloat c), (a, b, c))

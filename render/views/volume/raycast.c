@@ -23,6 +23,13 @@ VolumeOpacity volume_opacity(const ViewDef *def)
                : VOLUME_BY_OWN;
 }
 
+bool volume_is_tinted(const Subject *subject)
+{
+    const VolumeDef *def = volume_def(subject->def);
+    return def->show == VOLUME_SHADED && view_color_by(subject->def) == SCALAR_FLUID &&
+           subject->world->fluid_count > 2 && def->method != VOLUME_DIRECT;
+}
+
 /* The transfer function of translucent fluid as a table for shaders/volume/raycast_gather.glsl. By
    position on the field's ramp: the curve, its integral from 0 on, and its total rise and fall; by
    position in the scalar's range: the opacity. With integrals, a piece of a ray between two samples is
@@ -331,10 +338,11 @@ static GLuint create_program(const Subject *subject, const char *field, Error *e
     static const int shows[] = {
         [VOLUME_ENTRY] = 1, [VOLUME_EXIT] = 2, [VOLUME_LENGTH] = 3, [VOLUME_STEPS] = 4, [VOLUME_NORMALS] = 5};
     char defines[320], translucent[96];
-    snprintf(defines, sizeof defines, "#define SHOW %d\n%s%s%s%s%s", shows[volume_def(subject->def)->show],
+    snprintf(defines, sizeof defines, "#define SHOW %d\n%s%s%s%s%s%s", shows[volume_def(subject->def)->show],
              subject->world->solid_count > 0 ? "#define SOLIDS 1\n" : "", field,
              cast->look == RAYCAST_TRANSLUCENT ? translucent_defines(subject->def, translucent) : "",
              cast->shadows ? "#define SHADOWS 1\n" : "",
+             volume_is_tinted(subject) ? "#define TINTED 1\n" : "",
              cast->look != RAYCAST_WATER     ? ""
              : raycast_is_full(subject->def) ? "#define WATER 1\n#define FLOOR_SHADOW 1\n#define WHOLE 1\n"
                                              : "#define WATER 1\n#define FLOOR_SHADOW 1\n");
@@ -657,6 +665,8 @@ static void cast_rays(Raycast *raycast, const Volume *volume, const ParticleBuff
     glNamedBufferSubData(raycast->block, 0, sizeof block, &block);
     glBindBufferBase(GL_UNIFORM_BUFFER, RAYCAST_BLOCK, raycast->block);
     glBindTextures(FIELD_UNIT, 2, (GLuint[]){volume->field, volume->scalar});
+    if (volume->tint[0])
+        glBindTextures(GREEN_UNIT, 2, volume->tint);
     bricks_make(&raycast->bricks, volume);
     draw_faces(raycast, frame);
     if (raycast->look == RAYCAST_WATER)

@@ -158,9 +158,10 @@ typedef struct VolumeView {
     VolumeSlice slice;  /* if shown alone, all below is empty */
     Raycast *raycast;   /* NULL: the view shows the slice */
     ShadowCaster casting;
-    Voxelizer *opacity;         /* carries the scalar of opacity if not the colours' scalar; else NULL */
-    SolidVoxels *solids;        /* NULL: no solids, or solids drawn as surfaces */
-    VolumeFluidNumbers numbers; /* zero unless the volume carries fluids */
+    Voxelizer *tint[TINT_PARTS - 1]; /* carry green and blue of more than two fluids, else NULL */
+    Voxelizer *opacity;              /* carries the scalar of opacity if not the colours' scalar; else NULL */
+    SolidVoxels *solids;             /* NULL: no solids, or solids drawn as surfaces */
+    VolumeFluidNumbers numbers;      /* zero unless the volume carries fluids */
 } VolumeView;
 
 static void destroy(void *state)
@@ -175,6 +176,8 @@ static void destroy(void *state)
     shadow_caster_destroy(&view->casting);
     voxelizer_destroy(view->voxelizer);
     voxelizer_destroy(view->opacity);
+    for (int i = 0; i < TINT_PARTS - 1; i++)
+        voxelizer_destroy(view->tint[i]);
     free(view);
 }
 
@@ -213,6 +216,8 @@ static bool accepts(void *state, const Subject *subject, Error *error)
         return true;
     return volume_grid_for(def, &space, &grid, error) &&
            has_room(view->voxelizer, def, &space, &grid, error) &&
+           (!view->tint[0] || has_room(view->tint[0], def, &space, &grid, error)) &&
+           (!view->tint[1] || has_room(view->tint[1], def, &space, &grid, error)) &&
            (!view->opacity || has_room(view->opacity, def, &space, &grid, error));
 }
 
@@ -237,6 +242,16 @@ static bool carries(const Subject *subject)
 {
     return volume_def(subject->def)->show == VOLUME_SHADED &&
            (view_color_by(subject->def) != SCALAR_FLUID || carries_fluids(subject));
+}
+
+static bool create_tints(VolumeView *view, const Subject *subject, Error *error)
+{
+    for (int i = 0; volume_is_tinted(subject) && i < TINT_PARTS - 1; i++) {
+        view->tint[i] = voxelizer_create(volume_def(subject->def)->method, true, error);
+        if (!view->tint[i])
+            return false;
+    }
+    return true;
 }
 
 /* Always sampled as a texture, even if the field is not. */
@@ -267,8 +282,8 @@ static void *create(const Subject *subject, Error *error)
     }
     view->voxelizer = voxelizer_create(volume_def(def)->method, carries(subject), error);
     const bool slice = volume_def(def)->show == VOLUME_SLICE;
-    if (view->voxelizer && create_opacity(view, def, error) && create_solids(view, subject, error) &&
-        accepts(view, subject, error) &&
+    if (view->voxelizer && create_tints(view, subject, error) && create_opacity(view, def, error) &&
+        create_solids(view, subject, error) && accepts(view, subject, error) &&
         (!carries_fluids(subject) || fluid_numbers_create(&view->numbers, error)) &&
         (slice ? volume_slice_create(&view->slice, def, view->voxelizer, error)
                : create_raycast(view, subject, error)))
@@ -286,24 +301,44 @@ static void cast(void *state, const ParticleBuffers *particles, const Frame *fra
         shadow_caster_draw(&view->casting, particles);
 }
 
+/* A volume with the fluids' numbers, or a part of their colours. */
+static bool make_part(VolumeView *view, int part, const ParticleBuffers *particles, const Frame *frame,
+                      Volume *volume)
+{
+    Voxelizer *voxelizer = part > 0 ? view->tint[part - 1] : view->voxelizer;
+    float of_fluid[FLUIDS_MAX] = {0};
+    Error error;
+    for (int i = 0; i < frame->world->fluid_count; i++)
+        of_fluid[i] = view->tint[0] ? frame->world->fluids[i].color[part] : (float)i;
+    const ParticleBuffers carrying =
+        view->numbers.program ? fluid_numbers_add(&view->numbers, part, of_fluid, particles) : *particles;
+    voxelizer_set_solids(voxelizer, view->shares.program ? &view->shares : NULL);
+    if (!voxelizer_run(voxelizer, volume_def(frame->def), &carrying, view_color_by(frame->def), volume,
+                       &error))
+        return false;
+    if (view->walls.program)
+        volume_walls_apply(&view->walls, particles, frame->world->periodic, volume);
+    return true;
+}
+
 static bool make_volume(VolumeView *view, const ParticleBuffers *particles, const Frame *frame,
                         Volume *volume)
 {
     const ViewDef *def = frame->def;
     Error error;
-    Volume opacity = {.field = 0};
-    const ParticleBuffers carrying =
-        view->numbers.program ? fluid_numbers_add(&view->numbers, particles) : *particles;
+    Volume opacity = {.field = 0}, tint[TINT_PARTS - 1] = {0};
     if (view->opacity && !voxelizer_run(view->opacity, volume_def(def), particles,
                                         scalar_of_curve(&def->opacity), &opacity, &error))
         return false;
     if (view->shares.program)
         solid_shares_place(&view->shares, particles, frame->world);
-    voxelizer_set_solids(view->voxelizer, view->shares.program ? &view->shares : NULL);
-    if (!voxelizer_run(view->voxelizer, volume_def(def), &carrying, view_color_by(def), volume, &error))
+    for (int i = 0; view->tint[0] && i < TINT_PARTS - 1; i++)
+        if (!make_part(view, i + 1, particles, frame, &tint[i]))
+            return false;
+    if (!make_part(view, 0, particles, frame, volume))
         return false;
-    if (view->walls.program)
-        volume_walls_apply(&view->walls, particles, frame->world->periodic, volume);
+    for (int i = 0; i < TINT_PARTS - 1; i++)
+        volume->tint[i] = tint[i].scalar;
     volume->opacity[0] = opacity.field;
     volume->opacity[1] = opacity.scalar;
     return true;
@@ -388,7 +423,8 @@ static bool same(const Subject *a, const Subject *b)
            raycast_is_curved(a->def) == raycast_is_curved(b->def) &&
            raycast_is_full(a->def) == raycast_is_full(b->def) &&
            (view_color_by(a->def) == SCALAR_FLUID) == (view_color_by(b->def) == SCALAR_FLUID) &&
-           (a->world->fluid_count > 1) == (b->world->fluid_count > 1);
+           (a->world->fluid_count > 1) == (b->world->fluid_count > 1) &&
+           volume_is_tinted(a) == volume_is_tinted(b);
 }
 
 /* Surfaces in a draft: shadow map instead of marching to the light, and cells twice as wide. Best: twice

@@ -25,12 +25,14 @@
 
 typedef struct Volume {
     VolumeGrid grid;
-    double support;      /* h of the kernel, m */
-    unsigned field;      /* GL_TEXTURE_3D, R32F, linear, 0 outside: F. 0 with method `direct`:
-                            shaders/volume/field.glsl sums at the sample */
-    unsigned scalar;     /* likewise sum V W scalar; the scalar's mean is this sum divided by F. 0 without a
-                            scalar. Separate texture, since most samples need F alone */
-    bool walled[3];      /* the box's sides perpendicular to this axis are walls, where the field ends */
+    double support;  /* h of the kernel, m */
+    unsigned field;  /* GL_TEXTURE_3D, R32F, linear, 0 outside: F. 0 with method `direct`:
+                        shaders/volume/field.glsl sums at the sample */
+    unsigned scalar; /* likewise sum V W scalar; the scalar's mean is this sum divided by F. 0 without a
+                        scalar. Separate texture, since most samples need F alone */
+    bool walled[3];  /* the box's sides perpendicular to this axis are walls, where the field ends */
+    unsigned
+        tint[2]; /* as `scalar`, which is the sum of V W and the fluid's red, of green and blue; 0: none */
     unsigned opacity[2]; /* `field` and `scalar` of a second volume on the same grid, for opacity by another
                             scalar; else 0 */
 } Volume;
@@ -165,20 +167,28 @@ unsigned volume_texture(const int size[3], unsigned format, const char *label);
    cells per grid cell. */
 double cell_lists_size(const VolumeGrid *grid, double radius, int size[3]);
 
-/* The particles' fluids as a scalar, for volumes that carry a scalar: the mean between two fluids that
-   follow each other in the list is the mixing ratio. Owns a float per particle. */
+/* The particles' fluids as numbers, for volumes that carry a scalar. Of two fluids the numbers are 0 and 1,
+   with the mixing ratio as mean. Of more fluids a mean says nothing: volumes carry the parts of the fluids'
+   colours instead. Owns up to three floats per particle. */
+
+enum { TINT_PARTS = 3 }; /* red, green, blue */
 
 typedef struct VolumeFluidNumbers {
-    unsigned program, buffer;
-    size_t capacity; /* particles */
+    unsigned program, buffer[TINT_PARTS];
+    size_t capacity[TINT_PARTS]; /* particles */
 } VolumeFluidNumbers;
 
 /* Returns false if the shader does not compile; call fluid_numbers_destroy in either case. */
 bool fluid_numbers_create(VolumeFluidNumbers *numbers, Error *error);
 void fluid_numbers_destroy(VolumeFluidNumbers *numbers);
 
-/* Returns the state with the scalar `fluid`, if the particles' fluids are known. */
-ParticleBuffers fluid_numbers_add(VolumeFluidNumbers *numbers, const ParticleBuffers *particles);
+/* Returns the state with the scalar `fluid`, if the particles' fluids are known: the value of each fluid.
+   `part`: the buffer that holds the scalar. */
+ParticleBuffers fluid_numbers_add(VolumeFluidNumbers *numbers, int part, const float of_fluid[FLUIDS_MAX],
+                                  const ParticleBuffers *particles);
+
+/* True if volumes carry the parts of colours. */
+bool volume_is_tinted(const Subject *subject);
 
 /* The walls of the box in a volume: the field extends to a wall, as if a mirror image of the fluid were
    behind. Changes the volume's textures in place, for any method; does nothing for a field that is summed
