@@ -121,6 +121,51 @@ unsigned particle_bind_one(unsigned binding, const ParticleAttribute *attribute,
     return attribute->buffer ? (unsigned)(attribute->stride / 4) : 0;
 }
 
+bool fluid_numbers_create(FluidNumbers *numbers, Error *error)
+{
+    *numbers = (FluidNumbers){
+        .program = program_create("fluid numbers", (const char *const[]){"render/fluid_numbers.comp", NULL},
+                                  NULL, error)};
+    return numbers->program != 0;
+}
+
+void fluid_numbers_destroy(FluidNumbers *numbers)
+{
+    glDeleteProgram(numbers->program);
+    glDeleteBuffers(FLUID_PARTS, numbers->buffer);
+    *numbers = (FluidNumbers){0};
+}
+
+static void reserve_numbers(FluidNumbers *numbers, int part, size_t count)
+{
+    size_t *capacity = &numbers->capacity[part];
+    if (count <= *capacity)
+        return;
+    *capacity = work_capacity(*capacity, count);
+    work_buffer_remake(&numbers->buffer[part], *capacity * sizeof(GLfloat), "fluid numbers");
+}
+
+_Static_assert(FLUID_VALUES_MAX == FLUIDS_MAX, "the shader knows all fluids");
+
+ParticleBuffers fluid_numbers_add(FluidNumbers *numbers, int part, const float of_fluid[FLUIDS_MAX],
+                                  const ParticleBuffers *particles)
+{
+    ParticleBuffers with = *particles;
+    if (!particles->fluid.buffer || !particles->count)
+        return with;
+    reserve_numbers(numbers, part, particles->count);
+    glUseProgram(numbers->program);
+    particle_bind(numbers->program, particles, SCALAR_FLUID);
+    glUniform1ui(CURVE_PARTICLES_AT, (GLuint)particles->count);
+    glUniform1fv(FLUID_VALUES_AT, FLUIDS_MAX, of_fluid);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHAPES_STORAGE, numbers->buffer[part]);
+    work_run(particles->count);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                    GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+    with.scalar[SCALAR_FLUID] = (ParticleAttribute){numbers->buffer[part], 0, sizeof(GLfloat)};
+    return with;
+}
+
 void particles_middle(const ParticleBuffers *particles, double middle[3])
 {
     enum { PART = 4096 }; /* particles per read */

@@ -130,6 +130,24 @@ const ParticleAttribute *particle_color_attribute(const ParticleBuffers *particl
 unsigned particle_bind_one(unsigned binding, const ParticleAttribute *attribute, size_t count,
                            unsigned stand_in);
 
+/* The particles' fluids as numbers, a scalar for means and sums. Of two fluids the numbers are 0 and 1, with
+   the mixing ratio as mean. Of more fluids a mean says nothing: three sums of the parts of the fluids'
+   colours do. Owns up to three floats per particle. Zero-initialise. */
+enum { FLUID_PARTS = 3 }; /* red, green, blue */
+typedef struct FluidNumbers {
+    unsigned program, buffer[FLUID_PARTS];
+    size_t capacity[FLUID_PARTS]; /* particles */
+} FluidNumbers;
+
+/* Returns false if the shader does not compile; call fluid_numbers_destroy in either case. */
+bool fluid_numbers_create(FluidNumbers *numbers, Error *error);
+void fluid_numbers_destroy(FluidNumbers *numbers);
+
+/* Returns the state with the scalar `fluid`, if the particles' fluids are known: the value of each fluid.
+   `part`: the buffer that holds the scalar. */
+ParticleBuffers fluid_numbers_add(FluidNumbers *numbers, int part, const float of_fluid[FLUIDS_MAX],
+                                  const ParticleBuffers *particles);
+
 /* The mean of all positions, m, in the box's frame; the middle of the box without particles. Reads all
    positions back and waits for the GPU: for keys, not for each picture. */
 void particles_middle(const ParticleBuffers *particles, double middle[3]);

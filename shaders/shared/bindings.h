@@ -67,6 +67,8 @@
 #define CURVE_POINTS_AT     73
 #define CURVE_RANGE_AT      74
 #define ID_STRIDE_AT        75
+#define FLUID_VALUES_AT     96 /* FLUID_VALUES_MAX locations */
+#define FLUID_VALUES_MAX    8
 #define EDGES_BEHIND_AT     76
 #define CAUSTIC_STEP_AT     78
 #define CAUSTIC_WIDTH_AT    79

@@ -9,12 +9,11 @@
 #define BLUE_UNIT  9
 
 /* Locations of uniforms */
-#define SHOWN_AT       16
-#define CUT_AT         17
-#define ISOLINES_AT    18
-#define FLAT_AT        19
-#define OPACITY_AT     20
-#define TINTS_APART_AT 21 /* from reds to greens and on to blues, floats */
+#define SHOWN_AT    16
+#define CUT_AT      17
+#define ISOLINES_AT 18
+#define FLAT_AT     19
+#define OPACITY_AT  20
 
 /* Values of the uniform shown */
 #define SLICE_MEAN  0 /* sum V W s over sum V W */

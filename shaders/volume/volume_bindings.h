@@ -10,7 +10,6 @@
 /* Storage buffers */
 #define FACES_STORAGE         4
 #define FACES_COMMAND_STORAGE 5
-#define FLUID_NUMBERS_STORAGE 6
 #define BOUNDS_STORAGE        7
 #define SOLID_SHARES_STORAGE  4 /* before the faces */
 /* lists of cells, bound in order by a single call */
@@ -45,7 +44,6 @@
 /* Locations of uniforms */
 #define PASS_SLICE_AT     16
 #define DISCS_AT          17
-#define FLUID_COUNT_AT    18
 #define SLICE_AXIS_AT     19
 #define SLICE_PLACE_AT    20
 #define WALL_AXIS_AT      21
@@ -62,7 +60,5 @@
 #define SOLID_HIGH_AT     32
 #define SOLID_COLOR_AT    33
 #define SOLID_CELL_AT     34
-#define FLUID_VALUES_AT   35 /* FLUID_VALUES_MAX locations */
-#define FLUID_VALUES_MAX  8
 
 #endif

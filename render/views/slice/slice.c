@@ -416,9 +416,10 @@ static int probe(void *state, const double (*at)[3], int count, ViewProbe *out)
     return slice_probe_read(&view->probe, &view->sum, at, count, out);
 }
 
-static bool sum_up(SliceView *view, const PlaneJob *job, const ParticleBuffers *particles, Error *error)
+static bool sum_up(SliceView *view, const PlaneJob *job, const ParticleBuffers *particles,
+                   const WorldDef *world, Error *error)
 {
-    return view->by_fluid ? slice_tints_run(&view->tints, &view->sum, job, particles, error)
+    return view->by_fluid ? slice_tints_run(&view->tints, &view->sum, job, particles, world, error)
                           : plane_sum_run(&view->sum, job, particles, error);
 }
 
@@ -435,7 +436,7 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     const PlaneSum *veils = NULL;
     GL_STAGE(frame->timer, STAGE_BLEND)
     {
-        made = make_job(particles, frame, &job) && sum_up(view, &job, particles, &error);
+        made = make_job(particles, frame, &job) && sum_up(view, &job, particles, frame->world, &error);
         if (made && frame->def->opacity.by != 0)
             veils = sum_veil(view, &job, particles, frame);
     }

@@ -27,17 +27,16 @@ int slice_step(const ViewDef *view, const ParticleBuffers *particles, ViewStep s
 
 /* Zero-initialise. */
 typedef struct SliceTints {
-    unsigned program, buffer; /* reds, greens and blues of the particles, floats */
-    size_t capacity;          /* of each, particles */
+    FluidNumbers numbers;
     PlaneSum green, blue;
 } SliceTints;
 
 /* True if a picture is coloured by several fluids. */
 bool slice_tints_shown(const ParticleBuffers *particles, const Frame *frame);
 
-/* As plane_sum_run, three times. The frame's uniforms must be bound. */
+/* As plane_sum_run, three times. */
 bool slice_tints_run(SliceTints *tints, PlaneSum *red, const PlaneJob *job, const ParticleBuffers *particles,
-                     Error *error);
+                     const WorldDef *world, Error *error);
 void slice_tints_destroy(SliceTints *tints);
 
 /* Values that the last picture of the view slice shows at positions. */

@@ -158,10 +158,10 @@ typedef struct VolumeView {
     VolumeSlice slice;  /* if shown alone, all below is empty */
     Raycast *raycast;   /* NULL: the view shows the slice */
     ShadowCaster casting;
-    Voxelizer *tint[TINT_PARTS - 1]; /* carry green and blue of more than two fluids, else NULL */
-    Voxelizer *opacity;              /* carries the scalar of opacity if not the colours' scalar; else NULL */
-    SolidVoxels *solids;             /* NULL: no solids, or solids drawn as surfaces */
-    VolumeFluidNumbers numbers;      /* zero unless the volume carries fluids */
+    Voxelizer *tint[FLUID_PARTS - 1]; /* carry green and blue of more than two fluids, else NULL */
+    Voxelizer *opacity;   /* carries the scalar of opacity if not the colours' scalar; else NULL */
+    SolidVoxels *solids;  /* NULL: no solids, or solids drawn as surfaces */
+    FluidNumbers numbers; /* zero unless the volume carries fluids */
 } VolumeView;
 
 static void destroy(void *state)
@@ -176,7 +176,7 @@ static void destroy(void *state)
     shadow_caster_destroy(&view->casting);
     voxelizer_destroy(view->voxelizer);
     voxelizer_destroy(view->opacity);
-    for (int i = 0; i < TINT_PARTS - 1; i++)
+    for (int i = 0; i < FLUID_PARTS - 1; i++)
         voxelizer_destroy(view->tint[i]);
     free(view);
 }
@@ -246,7 +246,7 @@ static bool carries(const Subject *subject)
 
 static bool create_tints(VolumeView *view, const Subject *subject, Error *error)
 {
-    for (int i = 0; volume_is_tinted(subject) && i < TINT_PARTS - 1; i++) {
+    for (int i = 0; volume_is_tinted(subject) && i < FLUID_PARTS - 1; i++) {
         view->tint[i] = voxelizer_create(volume_def(subject->def)->method, true, error);
         if (!view->tint[i])
             return false;
@@ -326,18 +326,18 @@ static bool make_volume(VolumeView *view, const ParticleBuffers *particles, cons
 {
     const ViewDef *def = frame->def;
     Error error;
-    Volume opacity = {.field = 0}, tint[TINT_PARTS - 1] = {0};
+    Volume opacity = {.field = 0}, tint[FLUID_PARTS - 1] = {0};
     if (view->opacity && !voxelizer_run(view->opacity, volume_def(def), particles,
                                         scalar_of_curve(&def->opacity), &opacity, &error))
         return false;
     if (view->shares.program)
         solid_shares_place(&view->shares, particles, frame->world);
-    for (int i = 0; view->tint[0] && i < TINT_PARTS - 1; i++)
+    for (int i = 0; view->tint[0] && i < FLUID_PARTS - 1; i++)
         if (!make_part(view, i + 1, particles, frame, &tint[i]))
             return false;
     if (!make_part(view, 0, particles, frame, volume))
         return false;
-    for (int i = 0; i < TINT_PARTS - 1; i++)
+    for (int i = 0; i < FLUID_PARTS - 1; i++)
         volume->tint[i] = tint[i].scalar;
     volume->opacity[0] = opacity.field;
     volume->opacity[1] = opacity.scalar;

@@ -167,27 +167,8 @@ unsigned volume_texture(const int size[3], unsigned format, const char *label);
    cells per grid cell. */
 double cell_lists_size(const VolumeGrid *grid, double radius, int size[3]);
 
-/* The particles' fluids as numbers, for volumes that carry a scalar. Of two fluids the numbers are 0 and 1,
-   with the mixing ratio as mean. Of more fluids a mean says nothing: volumes carry the parts of the fluids'
-   colours instead. Owns up to three floats per particle. */
-
-enum { TINT_PARTS = 3 }; /* red, green, blue */
-
-typedef struct VolumeFluidNumbers {
-    unsigned program, buffer[TINT_PARTS];
-    size_t capacity[TINT_PARTS]; /* particles */
-} VolumeFluidNumbers;
-
-/* Returns false if the shader does not compile; call fluid_numbers_destroy in either case. */
-bool fluid_numbers_create(VolumeFluidNumbers *numbers, Error *error);
-void fluid_numbers_destroy(VolumeFluidNumbers *numbers);
-
-/* Returns the state with the scalar `fluid`, if the particles' fluids are known: the value of each fluid.
-   `part`: the buffer that holds the scalar. */
-ParticleBuffers fluid_numbers_add(VolumeFluidNumbers *numbers, int part, const float of_fluid[FLUIDS_MAX],
-                                  const ParticleBuffers *particles);
-
-/* True if volumes carry the parts of colours. */
+/* True if volumes carry the parts of the fluids' colours (FLUID_PARTS): a mean of the numbers of more than
+   two fluids says nothing. */
 bool volume_is_tinted(const Subject *subject);
 
 /* The walls of the box in a volume: the field extends to a wall, as if a mirror image of the fluid were

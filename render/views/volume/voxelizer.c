@@ -146,51 +146,6 @@ void volume_walls_apply(const VolumeWalls *walls, const ParticleBuffers *particl
                     GL_FRAMEBUFFER_BARRIER_BIT); /* the next picture draws into the field */
 }
 
-bool fluid_numbers_create(VolumeFluidNumbers *numbers, Error *error)
-{
-    *numbers = (VolumeFluidNumbers){
-        .program = program_create("fluid numbers", (const char *const[]){"volume/fluid_numbers.comp", NULL},
-                                  NULL, error)};
-    return numbers->program != 0;
-}
-
-void fluid_numbers_destroy(VolumeFluidNumbers *numbers)
-{
-    glDeleteProgram(numbers->program);
-    glDeleteBuffers(TINT_PARTS, numbers->buffer);
-    *numbers = (VolumeFluidNumbers){0};
-}
-
-static void reserve_numbers(VolumeFluidNumbers *numbers, int part, size_t count)
-{
-    size_t *capacity = &numbers->capacity[part];
-    if (count <= *capacity)
-        return;
-    *capacity = work_capacity(*capacity, count);
-    work_buffer_remake(&numbers->buffer[part], *capacity * sizeof(GLfloat), "fluid numbers");
-}
-
-_Static_assert(FLUID_VALUES_MAX == FLUIDS_MAX, "the shader knows all fluids");
-
-ParticleBuffers fluid_numbers_add(VolumeFluidNumbers *numbers, int part, const float of_fluid[FLUIDS_MAX],
-                                  const ParticleBuffers *particles)
-{
-    ParticleBuffers with = *particles;
-    if (!particles->fluid.buffer || !particles->count)
-        return with;
-    reserve_numbers(numbers, part, particles->count);
-    glUseProgram(numbers->program);
-    particle_bind(numbers->program, particles, SCALAR_FLUID);
-    glUniform1ui(FLUID_COUNT_AT, (GLuint)particles->count);
-    glUniform1fv(FLUID_VALUES_AT, FLUIDS_MAX, of_fluid);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, FLUID_NUMBERS_STORAGE, numbers->buffer[part]);
-    work_run(particles->count);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
-                    GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
-    with.scalar[SCALAR_FLUID] = (ParticleAttribute){numbers->buffer[part], 0, sizeof(GLfloat)};
-    return with;
-}
-
 /* Grid, textures and constants of a volume; a VoxelizeMethod computes the values. */
 
 struct Voxelizer {

@@ -1,11 +1,10 @@
-// A number of each particle's fluid, for averaging (render/views/volume/volume_private.h).
+// A number of each particle's fluid, for sums and means (render/particles/particles.h).
 #include "common/particles.glsl"
 #include "common/particle_fluids.glsl"
-#include "shaders/volume/volume_bindings.h"
 
 layout(local_size_x = 64) in;
-layout(std430, binding = FLUID_NUMBERS_STORAGE) writeonly buffer Numbers { float numbers[]; };
-layout(location = FLUID_COUNT_AT) uniform uint count;
+layout(std430, binding = SHAPES_STORAGE) writeonly buffer Numbers { float numbers[]; };
+layout(location = CURVE_PARTICLES_AT) uniform uint count;
 layout(location = FLUID_VALUES_AT) uniform float of_fluid[FLUID_VALUES_MAX];
 
 void main()
