@@ -217,7 +217,7 @@ class FullDisk(CommandTest):
 
     def test_video(self):
         self.write('a.mp4', 'old')
-        self.full('render', 'scene.yaml', '-o', 'a.mp4', '--time', '0.5', '--size', '160x120', size=8000)
+        self.full('render', 'scene.yaml', '-o', 'a.mp4', '--time', '0.5', '--size', '320x240', size=8000)
         self.assertEqual(self.entries(), ['a.mp4'])
         self.assertEqual(self.read('a.mp4'), b'old')
 
@@ -248,7 +248,7 @@ class TinyDisk(TinyDiskTest):
 
     def test_video(self):
         for size in ('4k', '8k'):
-            self.assertEqual(self.full(size, 'render scene.yaml -o disk/a.mp4 --time 0.4 --size 160x120'), [], size)
+            self.assertEqual(self.full(size, 'render scene.yaml -o disk/a.mp4 --time 0.4 --size 320x240'), [], size)
 
 
 class Unwritable(CommandTest):
