@@ -152,21 +152,42 @@ static void bench_plan_case_name(const BenchPlan *plan, size_t index, char *name
     sweeps_name(plan->sweeps, plan->sweep_count, index % plan->combinations, "=", name, size);
 }
 
-/* Loads the scene of a case; `tell`: prints the loader's notes on standard error. */
-static bool bench_plan_case_load(const BenchPlan *plan, size_t index, bool tell, Scene *scene, Error *error)
+static bool load_case(const BenchPlan *plan, size_t index, Scene *scene, Notes *notes, Error *error)
 {
     SweptTexts texts;
-    Notes notes;
     SceneSettings settings;
     const size_t number = index / plan->combinations;
     if (!case_settings(plan, index % plan->combinations, texts, &settings, error))
         return false;
     if (plan->table && !plan->table->scene && settings.particles == 0)
         settings.particles = bench_table_particles(plan->table, number);
-    if (!scene_load(plan->scenes[number], &settings, scene, &notes, error))
+    return scene_load(plan->scenes[number], &settings, scene, notes, error);
+}
+
+/* Prints the notes of a case, without notes of the case before. */
+static void tell_notes(const BenchPlan *plan, size_t index, Notes *notes)
+{
+    Scene scene;
+    Notes before = {.count = 0};
+    Error none;
+    int kept = 0;
+    if (index > 0 && !load_case(plan, index - 1, &scene, &before, &none))
+        before.count = 0;
+    for (int i = 0; i < notes->count; i++)
+        if (!notes_have(&before, notes->line[i]))
+            memmove(notes->line[kept++], notes->line[i], NOTE_SIZE);
+    notes->count = kept;
+    notes_print(notes, stderr);
+}
+
+/* Loads the scene of a case; `tell`: prints the loader's notes on standard error. */
+static bool bench_plan_case_load(const BenchPlan *plan, size_t index, bool tell, Scene *scene, Error *error)
+{
+    Notes notes;
+    if (!load_case(plan, index, scene, &notes, error))
         return false;
     if (tell)
-        notes_print(&notes, stderr);
+        tell_notes(plan, index, &notes);
     return true;
 }
 

@@ -2,6 +2,7 @@
 import json
 import math
 import os
+import re
 import subprocess
 
 import command
@@ -162,6 +163,7 @@ class Tables(Case):
     def test_a_published_table_beside_its_figures(self):
         done = self.slosh_out('bench', '--table', 'paper003-spheres', '--view', 'spheres', '--frames', '1', '--size', '64x64', '-o', 'chart.svg',
                               '--json', 'table.json')
+        self.assertEqual(len(re.findall('a spacing of .* gives 1024', done.stderr)), 1, done.stderr)  # of three cases
         rows = [line.split() for line in done.stdout.splitlines() if line[:9].strip().isdigit()]
         published = {(row[0], row[3]): row for row in rows if row[4] == 'published'}
         self.assertEqual(len(published), 8)
