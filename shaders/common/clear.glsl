@@ -45,6 +45,12 @@ vec3 with_surface(Surface s, vec3 inside)
     return mix(inside, reflected(s, reflect(s.view, s.normal)), share);
 }
 
+// How much of the mirrored sky the rim of a drop has at a depth, m: of a few pixels, the rim would be a white ring around nothing.
+float rim_of_drop(float radius, float depth)
+{
+    return smoothstep(1.0, 6.0, radius * 0.5 * picture_size.y / (view_tangent.y * depth * fineness));
+}
+
 // A blended normal may face away from the eye at the rim: bends such normals toward the eye.
 vec3 facing(vec3 normal, vec3 view)
 {

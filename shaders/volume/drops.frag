@@ -45,6 +45,7 @@ void main()
 #endif
     Surface s = Surface(place, normalize(ray), normalize(place - drop.xyz), albedo, lit, key, 0.0, 1.0);
 #ifdef WATER
+    s.bare = rim_of_drop(drop.w, -drop.z);
     s.normal = facing(s.normal, s.view);
     vec3 inside = seen_through(s);
     color = vec4(mix(inside, with_surface(s, inside + scattered(s)), shading), 1.0);

@@ -35,6 +35,9 @@ void main()
     // For a level of 0.5: a lone particle has a field of 0.17, three in a row at most 0.33, four touching particles 0.40 with a
     // surface between, an edge of fluid 0.4.
     float alone = 1.0 - smoothstep(0.6 * surface_level, 0.85 * surface_level, textureLod(field_map, place, 0.0).x);
+#ifdef WATER
+    alone *= 0.5; // a particle stands for spray of finer drops: balls of the whole volume look like glass beads
+#endif
     float radius = own_radius(volume) * alone;
     gl_Position = vec4(2.0, 2.0, 0.5, 1.0);
     offset = constants = albedo = vec3(0.0);

@@ -171,13 +171,15 @@ static void a_periodic_side_is_no_wall(void **state)
     free(scene.particles);
 }
 
-/* Drops in a row from a lone drop to a drop at the wall; each is a disc with the radius of the drop's
+/* A lone drop is a disc with the radius of the drop's
    volume. */
 static void a_particle_alone_is_a_ball_of_its_volume(void **state)
 {
     (void)state;
-    const double radius = SPACING * cbrt(0.75 / 3.14159265358979), distance = 1.2;
+    const double whole = SPACING * cbrt(0.75 / 3.14159265358979);
     for (int look = RAYCAST_OPAQUE; look <= RAYCAST_WATER; look++) {
+        const double part = look == RAYCAST_WATER ? 0.5 : 1; /* as of finer spray */
+        const double radius = part * whole, distance = part * 1.2;
         Scene3 scene = seen_from(0, 0.4, distance);
         volume_def(&scene.def)->raycast.look = (RaycastLook)look;
         add(&scene, 0, 0.4, 0);

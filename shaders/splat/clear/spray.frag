@@ -43,7 +43,7 @@ vec3 shaded(Surface s, float radius)
     inside = mix(mix(s.albedo, phong(s), shading), inside, 0.8);
 #endif
     float cosine = max(-dot(s.view, s.normal), 0.0), gathered = 1.0 - 0.35 * (1.0 - cosine) * (s.key * dot(s.normal, light_in_eye) + 0.5);
-    vec3 left = inside * (gathered * (1.0 - fresnel(cosine, refraction_index)));
+    vec3 left = inside * (gathered * (1.0 - s.bare * fresnel(cosine, refraction_index)));
     return mix(inside, with_surface(s, left), shading);
 }
 
@@ -52,6 +52,7 @@ Surface surface_at(Splat hit)
     vec3 ray = ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy));
     Surface s = Surface(hit.depth * ray, normalize(ray), hit.normal, color, 0.0, 0.0, 0.0, 1.0);
     s.normal = facing(normalize(hit.normal), s.view);
+    s.bare = rim_of_drop(radius, hit.depth);
     s.lit = s.key = fluid_light(s.place, gl_FragCoord.xy);
 #ifdef SOLIDS
     s.key *= solid_light(s.place);
