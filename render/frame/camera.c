@@ -138,8 +138,9 @@ static float place_to_fit(const SeenBox *seen, int count, const FreeArea *area, 
             const float from[2] = {middle[0], middle[1]};
             better = false;
             for (int k = 0; k < 9; k++) {
-                const float at[2] = {from[0] + steps[step] * (float)(k % 3 - 1),
-                                     from[1] + steps[step] * (float)(k / 3 - 1)};
+                const int across = k % 3 - 1, along = k / 3 - 1;
+                const float at[2] = {from[0] + steps[step] * (float)across,
+                                     from[1] + steps[step] * (float)along};
                 if (fmaxf(fabsf(at[0]), fabsf(at[1])) > 0.5F)
                     continue;
                 const float to = distance_to_fit(seen, count, area, at, farthest);

@@ -16,9 +16,9 @@ static SolidsScene slices(const unsigned order[3])
         for (int k = 0; k < 3; k++)
             scene.world.fluids[i].color[k] = i == k ? 0.8F : 0.05F;
     for (int i = 0; i < 20 * 10 * 10; i++) {
-        const int along = i % 20, part = along < 7 ? 0 : along < 13 ? 1 : 2;
-        particles_add(scene.particles, -0.95 + 0.1 * along, 0.05 + 0.1 * (i / 20 % 10),
-                      -0.45 + 0.1 * (i / 200), 1, order[part]);
+        const int along = i % 20, up = i / 20 % 10, deep = i / 200, part = along < 7 ? 0 : along < 13 ? 1 : 2;
+        particles_add(scene.particles, -0.95 + 0.1 * along, 0.05 + 0.1 * up, -0.45 + 0.1 * deep, 1,
+                      order[part]);
         scene.particles->position[4 * (size_t)i + 3] = 1e-3F;
     }
     return scene;
