@@ -218,29 +218,21 @@ bool panels_are_stale(const Panels *panels)
     return stale;
 }
 
-/* For the largest legend of all panels, in a panel of that size. */
-static CoveredParts room_of(const Panels *panels, const PanelRect *size)
+CoveredParts panels_legend(const Panels *panels, int index)
 {
+    const PanelRect *at = &panels->places[index];
     CoveredParts widest = {0};
     for (int i = 0; i < panels->count; i++) {
         const PanelView *panel = &panels->panels[i];
-        widest = covered_by_both(widest, legend_room(&panel->def, &panel->world, size->width, size->height));
+        widest = covered_by_both(widest, legend_room(&panel->def, &panel->world, at->width, at->height));
     }
-    return widest;
-}
-
-CoveredParts panels_legend(const Panels *panels)
-{
-    CoveredParts widest = {0};
-    for (int i = 0; i < panels->count; i++)
-        widest = covered_by_both(widest, room_of(panels, &panels->places[i]));
     return widest;
 }
 
 static void cover(Panels *panels)
 {
     for (int i = 0; i < panels->count; i++) {
-        CoveredParts covered = room_of(panels, &panels->places[i]);
+        CoveredParts covered = panels_legend(panels, i);
         covered.left = panels->count > 1 ? 0 : panels->covered_left;
         renderer_set_covered(panels->panels[i].renderer, covered);
     }

@@ -162,8 +162,8 @@ bool panels_set_title(Panels *panels, int index, const Title *title, Error *erro
    the width; a single panel uses renderer_set_covered. */
 bool panels_set_covered(Panels *panels, double left, Error *error);
 
-/* The corner of a panel that automatic cameras leave free: for the largest legend. */
-CoveredParts panels_legend(const Panels *panels);
+/* The corner of a panel that the automatic camera leaves free: for the largest legend of all panels. */
+CoveredParts panels_legend(const Panels *panels, int index);
 
 /* As renderer_set_late, for all panels. panels_are_stale: true if renderer_is_stale is true for any panel. */
 void panels_set_late(Panels *panels, bool late);

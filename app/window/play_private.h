@@ -467,7 +467,7 @@ static inline CameraSight play_sight_in(const Play *play, int panel)
     const bool one = play->model.open.scene.view_count == 0;
     CameraSight sight = {.width = at.width, .height = at.height};
     if (play->picture.panels)
-        sight.covered = panels_legend(play->picture.panels);
+        sight.covered = panels_legend(play->picture.panels, panel);
     sight.covered.left = one ? covered : 0;
     return sight;
 }
