@@ -68,7 +68,7 @@ static void it_begins_with_the_automatic_picture(void **state)
     BoxState moved = {.position = {0.5, 0.1, -0.7}, .orientation = {0, 0.6, 0, 0.8}};
     static const CoveredParts covered[] = {
         {0}, {0, 0.15, 1}, {0, 0.4, 1}, {0.3, 0.15, 1}}; /* the camera goes off the centre for the legend */
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < (int)(sizeof covered / sizeof *covered); i++) {
         check_same_picture(&def, &home, covered[i]);
         check_same_picture(&def, &moved, covered[i]);
     }
