@@ -7,6 +7,7 @@
 #include "sim/step/backend.h"
 
 #include <mpi.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -134,6 +135,7 @@ int main(int argc, char *argv[])
 {
     int threads;
     standard_streams_open();
+    signal(SIGPIPE, SIG_IGN); /* MPI's own pipes may break while ranks begin; MPI knows what to do then */
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &threads);
     backends_add();
     backend_add(&backend_ranks);
