@@ -173,17 +173,22 @@ void particles_middle(const ParticleBuffers *particles, double middle[3])
     const size_t count = from->buffer ? particles->count : 0;
     float at[4 * PART];
     double sum[3] = {0};
+    size_t known = 0;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     for (size_t first = 0, part; first < count; first += part) {
         part = count - first < PART ? count - first : PART;
-        glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
         glGetNamedBufferSubData(from->buffer, (GLintptr)(from->offset + first * from->stride),
                                 (GLsizeiptr)(part * from->stride), at);
-        for (size_t i = 0; i < part; i++)
-            for (int k = 0; k < 3; k++)
-                sum[k] += (double)at[4 * i + k];
+        for (size_t i = 0; i < part; i++) {
+            const float *x = at + 4 * i;
+            const bool finite = isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]);
+            known += finite;
+            for (int k = 0; finite && k < 3; k++)
+                sum[k] += (double)x[k];
+        }
     }
     for (int k = 0; k < 3; k++)
-        middle[k] = count > 0 ? sum[k] / (double)count : k == 1 ? 0.5 * particles->box_size[1] : 0;
+        middle[k] = known > 0 ? sum[k] / (double)known : k == 1 ? 0.5 * particles->box_size[1] : 0;
 }
 
 void particle_bind_ids(unsigned program, const ParticleBuffers *particles)

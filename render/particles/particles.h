@@ -148,7 +148,7 @@ void fluid_numbers_destroy(FluidNumbers *numbers);
 ParticleBuffers fluid_numbers_add(FluidNumbers *numbers, int part, const float of_fluid[FLUIDS_MAX],
                                   const ParticleBuffers *particles);
 
-/* The mean of all positions, m, in the box's frame; the middle of the box without particles. Reads all
+/* The mean of all finite positions, m, in the box's frame; the middle of the box without any. Reads all
    positions back and waits for the GPU: for keys, not for each picture. */
 void particles_middle(const ParticleBuffers *particles, double middle[3]);
 

@@ -137,12 +137,12 @@ static void keys_become_settings(void **state)
         assert_setting(&settings[1], "view.slice.normal", s * turns[i].x, s * turns[i].y, c);
     }
     /* across an axis through the middle of the fluid, or of the box without any */
-    const float at[2][4] = {{-0.7F, 0.1F, 0.1F}, {-0.3F, 0.3F, 0.2F}};
+    const float at[3][4] = {{-0.7F, 0.1F, 0.1F}, {NAN, 0.1F, 0}, {-0.3F, 0.3F, 0.2F}};
     for (int axis = 0; axis < 3; axis++) {
         particles.position = (ParticleAttribute){0};
         slice_step(&view, &particles, (ViewStep)(VIEW_STEP_X + axis), settings);
         assert_setting(&settings[0], "view.slice.point", 0, 0.5, 0);
-        particles.count = 2;
+        particles.count = 3;
         particles.position.stride = sizeof at[0];
         glCreateBuffers(1, &particles.position.buffer);
         glNamedBufferStorage(particles.position.buffer, sizeof at, at, 0);
