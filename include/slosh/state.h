@@ -130,7 +130,7 @@ struct Constants; /* sim/step/constants.h */
 struct WorldDef;  /* include/slosh/def.h */
 
 enum { COLUMNS_TERM = 36, COLUMNS_MAX = 48 };
-enum { COLUMNS_KEPT = 32, COLUMNS_LEFT = 38, COLUMNS_SHOWN = 41 }; /* indices in ParticleColumns.own */
+enum { COLUMNS_KEPT = 34, COLUMNS_LEFT = 40, COLUMNS_SHOWN = 43 }; /* indices in ParticleColumns.own */
 
 /* All possible data of a particle, a column each; NULL if not needed. */
 typedef struct ParticleColumns {

@@ -47,9 +47,10 @@
               TERM(fluid_terms[7].wet), TERM(drag_nodes), TERM(drag_steps), TERM(drag_offset),               \
               TERM(lid_velocity)),                                                                           \
         BLOCK("sim/wcsph/wcsph_block.h", WcsphBlock, WCSPH(gradient_scale), WCSPH(diffusion),                \
-              WCSPH(radial_friction), WCSPH(shift_speed), WCSPH(density_return), WCSPH(kernel_shape),        \
-              WCSPH(corrected_gradient), WCSPH(any_artificial), WCSPH(wcsph_fluids[0].tait),                 \
-              WCSPH(wcsph_fluids[0].artificial_viscosity), WCSPH(wcsph_fluids[7].artificial_viscosity)),     \
+              WCSPH(radial_friction), WCSPH(shift_speed), WCSPH(density_return), WCSPH(boundary_relaxes),    \
+              WCSPH(kernel_shape), WCSPH(corrected_gradient), WCSPH(any_artificial),                         \
+              WCSPH(wcsph_fluids[0].tait), WCSPH(wcsph_fluids[0].artificial_viscosity),                      \
+              WCSPH(wcsph_fluids[7].artificial_viscosity)),                                                  \
         BLOCK("sim/dfsph/dfsph_block.h", DfsphBlock, DFSPH(gradient), DFSPH(friction_gradient),              \
               DFSPH(relaxation), DFSPH(pressure_of_term), DFSPH(least_squares), DFSPH(surface_lack),         \
               DFSPH(surface_slope)),                                                                         \

@@ -1,7 +1,9 @@
 // wcsph: rate of density by the equation of continuity, with diffusion and the walls' images. Then density, volume
 // and pressure: rate_range in sim/methods/wcsph/pairs_wcsph.c, rate_body in sim/methods/wcsph/wcsph_passes.c, sim/methods/wcsph/pairs_images.c.
 #define BEHIND_DRIFT
+#ifndef SOLIDS
 #define OWN_ACCESS writeonly
+#endif
 #include "sim/constants.glsl"
 #include "sim/wcsph/wcsph.glsl"
 #include "sim/walk.glsl"
@@ -26,7 +28,7 @@ layout(location = PASS_DT_AT) uniform float dt;
 // The particle, and the current image: velocities, and sums of F v_ij . x_ij.
 uint self, own_fluid;
 vec3 own_velocity, image_velocity, image_sign;
-float sum = 0.0, image_sum = 0.0;
+float sum = 0.0, image_sum = 0.0, beside = 0.0; // the last one: the part of boundary particles
 
 // x_ij with the particle's corrected gradient; the same for an image.
 vec3 along(vec3 d)
@@ -76,15 +78,21 @@ vec3 solid_velocity_of(uint j) { return solid_velocity_at(int(rest[boundary_stat
 void meet_boundary(uint j, vec3 d, float volume)
 {
     float h = support, least = 1e-6 * h, r2 = dot(d, d);
-    if (r2 < h * h && r2 >= least * least)
-        sum += shape(sqrt(r2) * inverse_support) * dot(own_velocity - solid_velocity_of(j), along(d));
+    if (r2 >= h * h || r2 < least * least)
+        return;
+    vec3 flow = shape(sqrt(r2) * inverse_support) * (own_velocity - solid_velocity_of(j));
+    sum += dot(flow, along(d));
+    beside += dot(flow, d);
 }
 
 void meet_boundary_image(uint j, vec3 d, float volume)
 {
     float r2 = dot(d, d);
-    if (r2 < support * support)
-        image_sum += image_shape(sqrt(r2)) * dot(image_velocity - solid_velocity_of(j), along_image(d));
+    if (r2 >= support * support)
+        return;
+    vec3 flow = image_shape(sqrt(r2)) * (image_velocity - solid_velocity_of(j));
+    image_sum += dot(flow, along_image(d));
+    beside += dot(flow, d);
 }
 #endif
 
@@ -116,7 +124,14 @@ void main()
     walk_images(x, at);
     float rate = -gradient_scale * (sum + image_sum) / rest_number_density;
     float e = density_after(velocity[i].w, rate * dt);
-    State state = state_of(e, own_fluid);
+    float more = 0.0;
+#ifdef SOLIDS
+    float boundary_rate = -gradient_scale * beside / rest_number_density;
+    more = boundary_part_after(own[OWN_boundary_part + i], boundary_rate, dt);
+    own[OWN_boundary_rate + i] = boundary_rate;
+    own[OWN_boundary_part + i] = more;
+#endif
+    State state = state_of(e, more, own_fluid);
     own[OWN_rate + i] = rate;
     velocity[i].w = e;
     position[i].w = unit_volume * state.volume;

@@ -1,6 +1,8 @@
 // wcsph: density from its rate, volume and pressure; data read of neighbours by forces; data for diffusion:
 // state_body in sim/methods/wcsph/wcsph_passes.c.
+#ifndef SOLIDS
 #define OWN_ACCESS readonly
+#endif
 #include "sim/constants.glsl"
 #include "sim/own.glsl"
 #include "sim/wcsph/wcsph.glsl"
@@ -20,12 +22,17 @@ void main()
     if (i >= particle_count())
         return;
     float before = velocity[i].w, e = density_after(before, own[OWN_rate + i] * dt);
-    State state = state_of(e, name[i].y);
+    float more = 0.0;
+#ifdef SOLIDS
+    more = boundary_part_after(own[OWN_boundary_part + i], own[OWN_boundary_rate + i], dt);
+    own[OWN_boundary_part + i] = more;
+#endif
+    State state = state_of(e, more, name[i].y);
     velocity[i].w = e;
     position[i].w = unit_volume * state.volume;
     pressure[i] = state.pressure;
     near[i] = vec4(position[i].xyz, state.pressure.y);
 #ifdef DIFFUSION
-    slope[i].w = 0.5 * (before + e);
+    slope[i].w = 0.5 * (before + e) + more;
 #endif
 }

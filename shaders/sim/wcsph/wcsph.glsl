@@ -35,6 +35,13 @@ float density_after(float e, float x)
     return e >= -0.5 ? -0.25 / sum - 1.0 : before / (1.0 - 4.0 * x * before) - 1.0;
 }
 
+// The boundary part of compression after dt at its rate: wcsph_boundary_part_after in sim/methods/wcsph/wcsph_private.h.
+float boundary_part_after(float part, float rate, float dt)
+{
+    float lost = dt * boundary_relaxes;
+    return ((1.0 - lost) * part + dt * rate) / (1.0 + lost);
+}
+
 struct State {
     float volume;
     vec2 pressure; // p, p V^2
@@ -44,10 +51,11 @@ struct State {
 float volume_at(float e) { return 1.0 / ((1.0 + e) * rest_number_density); }
 
 // Tait's p = B ((rho / rho0)^7 - 1), Monaghan 1994, for e = rho / rho0 - 1, expanded in powers.
-State state_of(float e, uint fluid)
+// For pressure e has its boundary part more.
+State state_of(float e, float more, uint fluid)
 {
-    float b = wcsph_fluids[fluid].tait;
-    float p = b * e * (7.0 + e * (21.0 + e * (35.0 + e * (35.0 + e * (21.0 + e * (7.0 + e))))));
+    float b = wcsph_fluids[fluid].tait, x = e + more;
+    float p = b * x * (7.0 + x * (21.0 + x * (35.0 + x * (35.0 + x * (21.0 + x * (7.0 + x))))));
 #ifndef NEGATIVE_PRESSURE
     p = p > 0.0 ? p : 0.0;
 #endif

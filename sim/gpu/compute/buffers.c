@@ -36,10 +36,18 @@ bool compute_scratch_fit(Compute *c)
     return true;
 }
 
+static bool has_row(const ComputeOwn *own, const ColumnDef *column)
+{
+    for (int k = 0; k < own->rows.count; k++)
+        if (own->rows.row[k] == column)
+            return true;
+    return false;
+}
+
 static void add_kept(const Constants *s, const ColumnDef *columns, const Term *of, ComputeOwn *own)
 {
     for (; columns && columns->name; columns++)
-        if (kept(columns) && (!of || !columns->needed || columns->needed(s))) {
+        if (kept(columns) && (!columns->needed || columns->needed(s)) && !has_row(own, columns)) {
             own->of[own->rows.count] = of;
             own->rows.row[own->rows.count++] = columns;
             for (int k = 0; k < columns->components; k++)
@@ -47,14 +55,20 @@ static void add_kept(const Constants *s, const ColumnDef *columns, const Term *o
         }
 }
 
+/* Appends what the constants ask for and `own` lacks. */
+static void add_all(const Constants *s, ComputeOwn *own)
+{
+    add_kept(s, s->method->columns, NULL, own);
+    if (s->wide)
+        add_kept(s, columns_left, NULL, own);
+    for (const Term *const *term = shared_terms; *term; term++)
+        add_kept(s, (*term)->columns, *term, own);
+}
+
 ComputeOwn compute_own_of(const Constants *s)
 {
     ComputeOwn own = {0};
-    add_kept(s, s->method->columns, NULL, &own);
-    if (s->wide)
-        add_kept(s, columns_left, NULL, &own);
-    for (const Term *const *term = shared_terms; *term; term++)
-        add_kept(s, (*term)->columns, *term, &own);
+    add_all(s, &own);
     return own;
 }
 
@@ -70,12 +84,13 @@ static bool widen(Compute *c, unsigned *buffer, int before, int count)
     return true;
 }
 
-/* Requires that terms added later are last in their list. */
+/* Columns that are asked for later follow those that are there. */
 bool compute_own_fit(Compute *c)
 {
-    const ComputeOwn own = compute_own_of(c->constants);
-    const int before = c->own.count;
-    if (own.count <= before)
+    ComputeOwn own = c->own;
+    const int before = own.count;
+    add_all(c->constants, &own);
+    if (own.count == before)
         return true;
     if (!widen(c, &c->now.own, before, own.count) || !widen(c, &c->spare.own, before, own.count) ||
         (c->marked.position && !widen(c, &c->marked.own, before, own.count)))

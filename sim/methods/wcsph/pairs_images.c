@@ -3,9 +3,10 @@
    sim/box/box.h. */
 #include "sim/methods/wcsph/pair_wcsph.h"
 
-/* Sum of F v_ij . x_ij over the neighbours of the images of group i. */
+/* Sum of F v_ij . x_ij over the neighbours of the images of group i; adds the part of boundary particles to
+   `beside`. */
 SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const NeighbourRange near,
-                          const ImageParticle *image, const ShapeKernel kernel)
+                          const ImageParticle *image, const ShapeKernel kernel, f8 *beside)
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), least2 = f8_splat(least * least);
@@ -17,7 +18,9 @@ SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const NeighbourRange n
         const Separation d = separation(args, image->at, j);
         const f8 f = image_shape(f8_sqrt(greater(d.r2, least2)) * inverse_h, apart, kernel);
         const f8x4 v = motion(args, j);
-        sum += f * ((ui - v.x) * d.x + (vi - v.y) * d.y + (wi - v.z) * d.z);
+        const f8 flow = f * ((ui - v.x) * d.x + (vi - v.y) * d.y + (wi - v.z) * d.z);
+        sum += flow;
+        *beside += v.w * flow;
     }
     return sum;
 }
@@ -105,12 +108,15 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
             continue;
         const SelfLanes own = themselves(args, i);
         const NeighbourRange near = neighbour_range_of(args, i), self = neighbours_of_own_lanes(&own);
-        f8 sum = f8_splat(0);
+        f8 sum = f8_splat(0), beside = sum;
         for (int m = 1; m <= images.count; m++) {
             const ImageParticle image = images.of[m];
-            sum += image_flow(args, i, near, &image, kernel) + image_flow(args, i, self, &image, kernel);
+            sum += image_flow(args, i, near, &image, kernel, &beside) +
+                   image_flow(args, i, self, &image, kernel, &beside);
         }
         lanes_add(args->fx, i, begin, end, -(gradient * sum));
+        if (args->own[BOUNDARY_PART])
+            lanes_add(args->fy, i, begin, end, -(gradient * beside));
     }
 }
 

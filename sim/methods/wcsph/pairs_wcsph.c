@@ -173,9 +173,10 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
 }
 
 /* Sum of F v_ij . x_ij, the flow's convergence, minus the diffusion of relative density within a fluid:
-   density differences beyond the gradient (Molteni and Colagrossi 2009; Antuono 2010). */
+   density differences beyond the gradient (Molteni and Colagrossi 2009; Antuono 2010). With `solids` also
+   the part of boundary particles, by the weights w of motion. */
 SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
-                            const bool diffusive)
+                            const bool diffusive, const bool solids)
 {
     const Constants *s = args->constants;
     const WcsphBlock *w = wcsph_constants(s);
@@ -192,13 +193,15 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
         const f8 gx = diffusive ? f8_load(args->own[SLOPE] + i) : none,
                  gy = diffusive ? f8_load(args->own[SLOPE + 1] + i) : none,
                  gz = diffusive ? f8_load(args->own[SLOPE + 2] + i) : none;
-        f8 sum = f8_splat(0);
+        f8 sum = f8_splat(0), beside = sum;
 
         NEIGHBOURS (near, j) {
             Separation d = separation(args, at, j);
             const f8 f = f8_masked(d.r2 >= least2, shape(f8_sqrt(d.r2) * inverse_h, kernel));
             const f8x4 v = motion(args, j);
             f8 flow = (ui - v.x) * d.x + (vi - v.y) * d.y + (wi - v.z) * d.z;
+            if (solids)
+                beside += f * v.w * flow;
             if (diffusive) {
                 const i8 same = f8_gather(args->kind, j) == fi;
                 const f8 along = (gx + f8_gather(args->own[SLOPE], j)) * d.x +
@@ -209,6 +212,8 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
             sum += f * flow;
         }
         lanes_store(args->fx, i, begin, end, f8_splat(-w->gradient_scale) * sum);
+        if (solids)
+            lanes_store(args->fy, i, begin, end, f8_splat(-w->gradient_scale) * beside);
     }
 }
 
@@ -293,12 +298,21 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
     }
 }
 
-SIMD_INLINE void rate_of(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
+SIMD_INLINE void rate_with(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
+                           const bool solids)
 {
     if (args->own[RELATIVE])
-        rate_range(args, begin, end, kernel, true);
+        rate_range(args, begin, end, kernel, true, solids);
     else
-        rate_range(args, begin, end, kernel, false);
+        rate_range(args, begin, end, kernel, false, solids);
+}
+
+SIMD_INLINE void rate_of(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
+{
+    if (args->own[BOUNDARY_PART])
+        rate_with(args, begin, end, kernel, true);
+    else
+        rate_with(args, begin, end, kernel, false);
 }
 
 SIMD_INLINE void viscous_with(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,

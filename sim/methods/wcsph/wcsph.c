@@ -136,7 +136,9 @@ static void wcsph_set(Constants *constants, const WorldDef *def)
     const float times = said->shifting == 0        ? DIFFUSION_RETURN
                         : said->corrected_gradient ? SHIFT_RETURN_CORRECTED
                                                    : SHIFT_RETURN;
-    WcsphBlock own = {.density_return = constants->sound_speed / (times * constants->support_radius)};
+    const float crossings = constants->sound_speed / constants->support_radius;
+    WcsphBlock own = {.density_return = crossings / times,
+                      .boundary_relaxes = 0.5F * crossings / BOUNDARY_RELAXES};
     const double reach = 0.5 * def->support * def->spacing, c = def->sound_speed;
     kernel_set(&own, constants, def);
     own.diffusion = (float)(2 * said->delta_sph * c * reach);

@@ -21,6 +21,11 @@ static bool differs_in_artificial(const Constants *constants)
     return wcsph_is_artificial(constants) && (constants->fluid_count > 1 || constants->solid_count > 0);
 }
 
+bool wcsph_meets_solids(const Constants *constants)
+{
+    return constants->solid_count > 0;
+}
+
 bool wcsph_diffuses(const Constants *constants)
 {
     return wcsph_constants(constants)->diffusion > 0;
@@ -72,6 +77,10 @@ static bool tells_kinds(const Constants *constants)
 const ColumnDef wcsph_columns[] = {
     {"compression", "", AT_COLUMN(compression), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED},
     {"rate", "1/s", OWN(RATE), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED},
+    {"boundary_part", "", OWN(BOUNDARY_PART), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED,
+     .needed = wcsph_meets_solids},
+    {"boundary_rate", "1/s", OWN(BOUNDARY_RATE), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED,
+     .needed = wcsph_meets_solids},
     {"viscosity", "Pa s", AT_COLUMN(viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
      .needed = differs_in_viscosity},
     {"artificial", "Pa s", OWN(ARTIFICIAL), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,

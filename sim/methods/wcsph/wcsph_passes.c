@@ -6,6 +6,7 @@
 #include "sim/methods/wcsph/wcsph_private.h"
 
 #include <math.h>
+#include <string.h>
 
 PAIR_LOOPS(wcsph_carried);
 
@@ -48,6 +49,16 @@ static void fill_rest_densities(const CpuRange *range)
             p->own[REST_DENSITY][i] = range->cpu->constants->density[p->fluid[i]];
 }
 
+static float boundary_part(const CpuRange *range, size_t i)
+{
+    float *const part = range->cpu->now.own[BOUNDARY_PART], *const rate = range->cpu->now.own[BOUNDARY_RATE];
+    if (!part)
+        return 0;
+    part[i] =
+        wcsph_boundary_part_after(wcsph_constants(range->cpu->constants), part[i], rate[i], range->input->dt);
+    return part[i];
+}
+
 /* Density += rate times dt; pressure, and V = V0 rho0 / rho. Diffusion uses the mean of before and after,
    which is stable for steps up to 4 over its rate; the value after alone allows only 2. */
 static void state_body(const CpuRange *range)
@@ -64,13 +75,13 @@ static void state_body(const CpuRange *range)
         }
         const float before = p->compression[i],
                     e = wcsph_density_after(before, p->own[RATE][i] * range->input->dt),
-                    pressure = wcsph_state_of(s, fluid, e);
+                    more = boundary_part(range, i), pressure = wcsph_state_of(s, fluid, e + more);
         p->compression[i] = e;
         p->volume[i] = 1 / ((1 + e) * s->rest_number_density);
         p->pressure[i] = s->negative_pressure || pressure > 0 ? pressure : 0;
         p->pressure_term[i] = p->pressure[i] * p->volume[i] * p->volume[i];
         if (p->own[RELATIVE])
-            p->own[RELATIVE][i] = 0.5f * (before + e);
+            p->own[RELATIVE][i] = 0.5f * (before + e) + more;
         if (p->own[ARTIFICIAL])
             p->own[ARTIFICIAL][i] = own->wcsph_fluids[fluid].artificial_viscosity;
         cpu_fill_terms(cpu, i);
@@ -82,6 +93,17 @@ static void state_body(const CpuRange *range)
 static void slope_body(const CpuRange *range)
 {
     cpu_pairs(range, &wcsph_slope);
+}
+
+/* {x, p V^2}, and {v, 1 for boundary particles}. */
+static void pack_flows(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float beside = p->fluid[i] < FLUIDS_MAX ? 0 : 1;
+        memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], p->pressure_term[i]}, 16);
+        memcpy(range->cpu->motion[i], (float[]){p->vx[i], p->vy[i], p->vz[i], beside}, 16);
+    }
 }
 
 static void rate_body(const CpuRange *range)
@@ -97,6 +119,8 @@ static void rate_body(const CpuRange *range)
         cpu_pairs(range, &wcsph_interface_rate);
     for (size_t i = range->begin; i < range->end; i++)
         p->own[RATE][i] = flow[i] / s->rest_number_density;
+    for (size_t i = range->begin; p->own[BOUNDARY_PART] && i < range->end; i++)
+        p->own[BOUNDARY_RATE][i] = p->ay[i] / s->rest_number_density;
 }
 
 #define STATE                                                                                                \
@@ -120,16 +144,18 @@ static PairCost continuity_pair(const Constants *constants)
 }
 
 static const CpuPass slope_cpu_pass = {.loops = {{slope_body, .walks = true}}, .pair = slope_pair};
-static const CpuPass continuity = {.loops = {{rate_body, .walks = true}, STATE}, .pair = continuity_pair};
+static const CpuPass continuity = {.loops = {{rate_body, .walks = true, .pack = pack_flows}, STATE},
+                                   .pair = continuity_pair};
 
 const Pass wcsph_state = {
     .name = "state",
     .stage = STAGE_DENSITY,
     .cpu = &state,
     .shader = "wcsph/state",
-    .reads = "fluid compression rate",
-    .writes = "compression volume pressure pressure_term relative kind viscosity artificial tension "
-              "rest_density",
+    .reads = "fluid compression rate boundary_part boundary_rate",
+    .writes =
+        "compression boundary_part volume pressure pressure_term relative kind viscosity artificial tension "
+        "rest_density",
 };
 
 const Pass wcsph_gradient = {
@@ -149,8 +175,9 @@ const Pass wcsph_continuity = {
     .shader = "wcsph/continuity",
     .reads = "position velocity fluid relative kind slope compression correction correction_mixed "
              "rest_density",
-    .writes = "rate compression volume pressure pressure_term relative kind viscosity artificial tension "
-              "rest_density acceleration",
+    .writes =
+        "rate boundary_rate compression boundary_part volume pressure pressure_term relative kind viscosity artificial tension "
+        "rest_density acceleration",
 };
 
 /* Corrected gradients (solver.corrected_gradient): sums of wcsph that are exact for linear fields, for any

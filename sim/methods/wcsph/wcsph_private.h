@@ -24,6 +24,12 @@
    the flow. */
 #define SHIFT_RETURN_CORRECTED 80.0F
 
+/* The same for the second part of boundary particles in the rate. A boundary particle pushes with p_i + p_b:
+   twice what its part of the rate stores. Where density diffuses, the stored part comes late, and a tank
+   above a plate hums for ever. So boundary particles count twice for fast flow, as images of the fluid in
+   walls do. The second part fades: the sum of W does not have the second part. 2 to 20 times end the hum. */
+#define BOUNDARY_RELAXES 10.0F
+
 static inline const WcsphBlock *wcsph_constants(const Constants *constants)
 {
     return (const WcsphBlock *)(const void *)constants->of_method;
@@ -37,6 +43,7 @@ bool wcsph_curves(const Constants *constants);
 bool wcsph_layers(const Constants *constants); /* densities of two fluids differ by more than a factor
                                                   CONTRAST_LEAST */
 bool wcsph_is_artificial(const Constants *constants);
+bool wcsph_meets_solids(const Constants *constants); /* next to solids */
 
 /* Columns of wcsph alone: indices in ParticleColumns.own. */
 
@@ -57,8 +64,11 @@ enum {
     PULL = REST_DENSITY + 1,    /* force of surface tension by curvature, as ParticleColumns.ax */
     DROP = PULL + 3,     /* sim/methods/wcsph/drops.c, in integers: way to the root of the particle's body; */
     DROP_SUM = DROP + 1, /* of roots: sum of PULL over the body; */
-    DROP_TALLY = DROP_SUM + 3, /* of roots: number of particles, and axes with a wall */
+    DROP_TALLY = DROP_SUM + 3,         /* of roots: number of particles, and axes with a wall */
+    BOUNDARY_PART = DROP_TALLY + 1,    /* compression by boundary particles that fades; */
+    BOUNDARY_RATE = BOUNDARY_PART + 1, /* its rate, 1/s, at the end of the last step: their part of RATE */
 };
+_Static_assert(BOUNDARY_RATE < COLUMNS_KEPT, "columns of terms follow");
 
 extern const ColumnDef wcsph_columns[];
 
@@ -82,6 +92,14 @@ static inline float wcsph_density_after(float e, float x)
         return sum;
     return e >= -0.5F ? -0.25F / sum - 1
                       : before / (1 - 4 * x * before) - 1; /* the same formula; for x = 0 exactly e */
+}
+
+/* The boundary part of compression after dt (s) at its rate: BOUNDARY_RELAXES; by the middle rule, as
+   accurate as the step. */
+static inline float wcsph_boundary_part_after(const WcsphBlock *own, float part, float rate, float dt)
+{
+    const float lost = dt * own->boundary_relaxes;
+    return ((1 - lost) * part + dt * rate) / (1 + lost);
 }
 
 /* Operations of `shape` in sim/methods/wcsph/pair_wcsph.h, counted as in sim/step/method.h. */
