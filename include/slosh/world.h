@@ -46,6 +46,8 @@ typedef uint64_t ParticleId;
    X(ENUM, name, unit) */
 #define OWN_SCALAR_LIST(X)                                                                                   \
     X(RATE, "rate", "1/s")                                                                                   \
+    X(BOUNDARY_PART, "boundary_part", "")                                                                    \
+    X(BOUNDARY_RATE, "boundary_rate", "1/s")                                                                 \
     X(KEPT_TERM, "kept_term", "Pa")                                                                          \
     X(TERM, "term", "Pa")                                                                                    \
     X(BEFORE, "before", "")                                                                                  \

@@ -91,11 +91,14 @@ static void as_many_come_and_go(void **state)
     static const char *const names[] = {"2D, mueller", "3D, mueller", "2D, wcsph"};
     for (int run = 0; run < 3; run++) {
         WorldDef def = jet_def(run == 1 ? 3 : 2);
+        const int parts = run == 2 ? 2 : 1; /* half a step for carried density: a solid's particles come
+                                               nearer than h */
         snprintf(def.method, sizeof def.method, "%s", run == 2 ? "wcsph" : "mueller");
+        def.dt /= parts;
         World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
         for (int i = 0; i < 8; i++) {
-            substeps(cpu, 20);
-            substeps(gpu, 20);
+            substeps(cpu, 20 * parts);
+            substeps(gpu, 20 * parts);
             const WorldInfo a = info_of(cpu), b = info_of(gpu);
             assert_true(a.emitted == b.emitted && a.drained == b.drained && a.count == b.count);
             same_ids(cpu, gpu);

@@ -84,7 +84,7 @@ static bool widen(Compute *c, unsigned *buffer, int before, int count)
     return true;
 }
 
-/* Columns that are asked for later follow those that are there. */
+/* New columns follow the present columns. */
 bool compute_own_fit(Compute *c)
 {
     ComputeOwn own = c->own;

@@ -16,7 +16,7 @@
 #include "sim/cpu/pair_loop.h"
 #include "sim/methods/wcsph/pair_wcsph.h"
 
-/* w of a group and its next neighbours, from their rest densities; 0 with solids, which have no rest
+/* w of a group and its next neighbours, from their rest densities; 0 with solids, without a rest
    density. */
 SIMD_INLINE f8 contrast(f8 mine, f8 theirs)
 {

@@ -1,5 +1,5 @@
 /* Velocity correction for shifts. A shift is not part of the flow, so a shifted particle takes on the
-   flow's velocity at its new position, v += (shift . grad) v; otherwise each shift mixes velocities like
+   flow's velocity at the new position, v += (shift . grad) v; otherwise each shift mixes velocities like
    friction. After: P. N. Sun, A. Colagrossi, S. Marrone, M. Antuono, A. M. Zhang, "A consistent approach to
    particle shifting in the delta-Plus-SPH model", 2019; M. Antuono, P. N. Sun, S. Marrone, A. Colagrossi,
    "The delta-ALE-SPH model", 2021; with constant masses. */
@@ -173,8 +173,9 @@ const Pass wcsph_continuity = {
     .stage = STAGE_DENSITY,
     .cpu = &continuity,
     .shader = "wcsph/continuity",
-    .reads = "position velocity fluid relative kind slope compression correction correction_mixed "
-             "rest_density",
+    .reads =
+        "position velocity fluid relative kind slope compression boundary_part correction correction_mixed "
+        "rest_density",
     .writes =
         "rate boundary_rate compression boundary_part volume pressure pressure_term relative kind viscosity artificial tension "
         "rest_density acceleration",

@@ -27,7 +27,7 @@
 /* The same for the second part of boundary particles in the rate. A boundary particle pushes with p_i + p_b:
    twice what its part of the rate stores. Where density diffuses, the stored part comes late, and a tank
    above a plate hums for ever. So boundary particles count twice for fast flow, as images of the fluid in
-   walls do. The second part fades: the sum of W does not have the second part. 2 to 20 times end the hum. */
+   walls do. The second part fades: the sum of W has none. 2 to 20 times end the hum. */
 #define BOUNDARY_RELAXES 10.0F
 
 static inline const WcsphBlock *wcsph_constants(const Constants *constants)
@@ -68,7 +68,7 @@ enum {
     BOUNDARY_PART = DROP_TALLY + 1,    /* compression by boundary particles that fades; */
     BOUNDARY_RATE = BOUNDARY_PART + 1, /* its rate, 1/s, at the end of the last step: their part of RATE */
 };
-_Static_assert(BOUNDARY_RATE < COLUMNS_KEPT, "columns of terms follow");
+_Static_assert((int)BOUNDARY_RATE < (int)COLUMNS_KEPT, "columns of terms follow");
 
 extern const ColumnDef wcsph_columns[];
 
