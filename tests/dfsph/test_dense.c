@@ -136,8 +136,8 @@ static void meet(System *s, const Sums *sums, double x[][3], int i, int j)
     }
 }
 
-/* A boundary particle, with `times` the multiplier of i. */
-static void meet_boundary(System *s, const Sums *sums, const double x[3], int i, size_t b, double times)
+/* A boundary particle, with twice the multiplier of i. */
+static void meet_boundary(System *s, const Sums *sums, const double x[3], int i, size_t b)
 {
     const CpuParticles *p = &((const Cpu *)sums->world->state)->now;
     const double at[3] = {(double)p->x[b], (double)p->y[b], (double)p->z[b]};
@@ -149,7 +149,7 @@ static void meet_boundary(System *s, const Sums *sums, const double x[3], int i,
         s->n[i] += height;
         for (int k = 0; k < 3; k++) {
             s->all[i][k] += slope[k];
-            s->push[i][i][k] += times * slope[k];
+            s->push[i][i][k] += 2 * slope[k];
             s->slope[i][k] += slope[k];
             for (int m = 0; m < 3; m++)
                 s->squares[i][k][m] += slope[k] * (x[m] - other[m]);
@@ -177,7 +177,7 @@ static void pushed(const System *s, const World *world, int l, const double push
         out[k] = push[k] + share / (1 - share) * (push[k] - across * n[k]);
 }
 
-static void assemble(System *s, const World *world, const Cloud *cloud, double x[][3], double times)
+static void assemble(System *s, const World *world, const Cloud *cloud, double x[][3])
 {
     const Cpu *cpu = world->state;
     const Constants *c = &world->constants;
@@ -193,7 +193,7 @@ static void assemble(System *s, const World *world, const Cloud *cloud, double x
             meet(s, &sums, x, i, j);
         for (size_t b = 0; b < cpu->count; b++)
             if (cpu->now.fluid[b] >= FLUIDS_MAX)
-                meet_boundary(s, &sums, x[i], i, b, times);
+                meet_boundary(s, &sums, x[i], i, b);
         for (int k = 0; k < 3; k++)
             s->all[i][k] /= sums.scale;
         s->n[i] += n0 * lack_at(world, s->all[i], s->n[i] / n0);
@@ -202,9 +202,7 @@ static void assemble(System *s, const World *world, const Cloud *cloud, double x
         for (int j = 0; j < s->count; j++)
             for (int l = 0; l < s->count; l++) {
                 double push[3];
-                memcpy(push, s->push[l][j], sizeof push);
-                if (times > 1) /* of velocities */
-                    pushed(s, world, l, s->push[l][j], push);
+                pushed(s, world, l, s->push[l][j], push);
                 s->matrix[i][j] += dt * dt / n0 * s->inverse_mass[l] * dot(s->push[l][i], push);
             }
 }
@@ -338,11 +336,10 @@ static void check(const Case *c)
     fixture_step(world, 1);
     step_of(world, &cloud, &step);
     const double n0 = world->constants.lattice.number_density;
-    assemble(&s, world, &cloud, step.x, 2);
+    assemble(&s, world, &cloud, step.x);
     for (int i = 0; i < s.count; i++)
         s.right[i] = (c->pulls ? 0 : fmin(s.n[i] / n0 - 1, 0)) + pressed(&s, world, step.falls, i);
     compare("velocities", c, &s, step.pressed, &world->solves[1]);
-    assemble(&s, world, &cloud, step.x, 1);
     for (int i = 0; i < s.count; i++)
         s.right[i] = s.n[i] / n0 - 1 + pressed(&s, world, step.flown, i);
     compare("places", c, &s, step.moved, &world->solves[0]);

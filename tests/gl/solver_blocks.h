@@ -51,9 +51,9 @@
               WCSPH(kernel_shape), WCSPH(corrected_gradient), WCSPH(any_artificial),                         \
               WCSPH(wcsph_fluids[0].tait), WCSPH(wcsph_fluids[0].artificial_viscosity),                      \
               WCSPH(wcsph_fluids[7].artificial_viscosity)),                                                  \
-        BLOCK("sim/dfsph/dfsph_block.h", DfsphBlock, DFSPH(gradient), DFSPH(friction_gradient),              \
-              DFSPH(relaxation), DFSPH(pressure_of_term), DFSPH(least_squares), DFSPH(surface_lack),         \
-              DFSPH(surface_slope)),                                                                         \
+        BLOCK("sim/dfsph/dfsph_block.h", DfsphBlock, DFSPH(gradient), DFSPH(boundary_fades),                 \
+              DFSPH(friction_gradient), DFSPH(relaxation), DFSPH(pressure_of_term), DFSPH(least_squares),    \
+              DFSPH(surface_lack), DFSPH(surface_slope)),                                                    \
         BLOCK("sim/pbf/pbf_block.h", PbfBlock, PBF(gradient), PBF(friction_gradient), PBF(relaxation),       \
               PBF(least_squares), PBF(pressure_of_term), PBF(viscous_dt), PBF(settle_rate)),                 \
         BLOCK("sim/watch_block.h", WatchBlock, WATCH(greatest_speed2), WATCH(greatest_acceleration2),        \

@@ -109,8 +109,8 @@ static void what_is_saved_is_a_scalar(void **state)
                 found += scalars_of((*method)->columns, (Scalar)s);
         for (const Term *const *term = shared_terms; *term; term++)
             found += scalars_of((*term)->columns, (Scalar)s);
-        if (found != 1)
-            fail_msg("%d columns are %s", found, scalar_list[s].name);
+        if (found == 0)
+            fail_msg("no column is %s", scalar_list[s].name);
     }
 }
 

@@ -1,8 +1,8 @@
-// Shared by the passes of dfsph's solvers. For velocities a boundary particle has the particle's k and the solid's velocity,
-// mirrored; for positions a boundary particle has no k: sim/methods/dfsph/dfsph.h.
+// Shared by the passes of dfsph's solvers. A boundary particle has the particle's k and the solid's velocity, mirrored:
+// sim/methods/dfsph/dfsph_private.h.
 #include "shaders/sim/dfsph/dfsph_block.h"
-#ifdef DIVERGENCE
 #define BOUNDARY_TIMES 2.0
+#ifdef DIVERGENCE
 #define MOMENTUM DIVERGENCE_MOMENTUM
 #define BEGINS DIVERGENCE_BEGINS
 #else

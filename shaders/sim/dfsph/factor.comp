@@ -9,13 +9,26 @@ layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pre
 layout(std430, binding = VELOCITIES_BUFFER) writeonly buffer Velocities { vec4 velocity[]; }; // w: volume
 layout(std430, binding = NEAR_BUFFER) writeonly buffer Near { vec4 near[]; };                 // x y z, k
 #ifdef SOLIDS
-#define BOUNDARY_SEEN(b, force, d) solid_add(force, d);
-void solid_add(vec3 force, vec3 d);
+#define BOUNDARY_SEEN(b, force, d) boundary_seen(b, force, d);
+void boundary_seen(uint b, vec3 force, vec3 d);
 #endif
 #include "sim/incompressible/sums.glsl"
 #include "sim/incompressible/solids.glsl"
 #include "sim/own.glsl"
 #include "sim/scratch.glsl"
+
+#ifdef SOLIDS
+#include "sim/solids.glsl"
+layout(std430, binding = RESTS_BUFFER) readonly buffer Rests { vec4 rest[]; }; // w: index of the solid
+
+float solid_flow = 0.0; // sum F v_b . x_ib, 1/s
+
+void boundary_seen(uint b, vec3 force, vec3 d)
+{
+    solid_add(force, d);
+    solid_flow += dot(force, mirror * solid_velocity_at(int(rest[boundary_state[b].y].w), boundary_position[b].xyz));
+}
+#endif
 
 // What a surface lacks: lack_of in sim/methods/dfsph/dfsph_passes.c.
 float lack_of(vec3 slope, float full)
@@ -38,6 +51,7 @@ void main()
     vec2 shares = solid_shares();
     scratch[SCRATCH_solid_share + i] = shares.x;
     scratch[SCRATCH_solid_lift + i] = shares.y;
+    scratch[SCRATCH_solid_flow + i] = solid_flow;
 #endif
     vec3 slope = whole - twice;
 #ifdef SOLIDS

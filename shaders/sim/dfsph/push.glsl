@@ -12,7 +12,7 @@ layout(std430, binding = ACCELERATIONS_BUFFER) readonly buffer Accelerations { v
 #endif
 #include "sim/incompressible/push.glsl"
 #include "sim/dfsph/flown.glsl"
-#if defined DIVERGENCE && defined SOLIDS
+#ifdef SOLIDS
 #include "sim/incompressible/solids.glsl"
 #include "sim/scratch.glsl"
 #endif
@@ -36,7 +36,7 @@ void main()
     own_term = near[i].w;
     walk_pairs(i, x);
     vec3 pressed = gradient * whole / fluids[FLUID_OF(i)].mass;
-#if defined DIVERGENCE && defined SOLIDS
+#ifdef SOLIDS
     vec3 slope = column_of(SCRATCH_solid_slope, i), along = solid_along(slope, scratch[SCRATCH_solid_share + i], pressed);
     column_set(SCRATCH_solid_by, i, 2.0 * own_term / fluids[FLUID_OF(i)].mass * slope + along);
     pressed += along;

@@ -9,6 +9,8 @@ layout(std430, binding = MOVES_BUFFER) readonly buffer Moves { vec4 move[]; }; /
 #include "sim/incompressible/jacobi.glsl"
 #include "sim/scratch.glsl"
 #ifdef SOLIDS
+#define OWN_ACCESS readonly
+#include "sim/own.glsl"
 #include "sim/solids.glsl"
 layout(std430, binding = RESTS_BUFFER) readonly buffer Rests { vec4 rest[]; }; // w: index of the solid
 #endif
@@ -48,7 +50,11 @@ void main()
     vec4 place = near[i], own_move = move[i];
     own_velocity = own_move.xyz;
     walk_pairs(i, place.xyz);
-    float residual = residual_of(own_move.w, scratch[SCRATCH_lack + i]);
+    float lack = scratch[SCRATCH_lack + i];
+#ifdef SOLIDS
+    lack += own[OWN_boundary_part + i];
+#endif
+    float residual = residual_of(own_move.w, lack);
     float k = next_term(place.w, residual, scratch[SCRATCH_factor + i], scratch[SCRATCH_change + i]);
     scratch[SCRATCH_miss + i] = miss_of(residual, place.w);
     scratch[SCRATCH_change + i] = (scratch[SCRATCH_change + i] == 0.0 ? BEGINS : 1.0) * (k - place.w);

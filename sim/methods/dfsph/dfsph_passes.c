@@ -303,6 +303,23 @@ static void density_motion(const CpuRange *range)
     begin_motion(range, false);
 }
 
+/* The second part of boundary particles in the rate, up to the middle of the next step; 0 away from solids.
+ */
+static void fill_boundary_part(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    const DfsphBlock *block = dfsph_constants(range->cpu->constants);
+    float *const *slope = p->own + SOLID + SOLID_SLOPE, *part = p->own[BOUNDARY_PART];
+    const float dt = range->input->dt, change = dt / range->cpu->constants->rest_number_density,
+                kept = 1 / (1 + dt * block->boundary_fades);
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float *v = range->cpu->motion[i], x = slope[0][i], y = slope[1][i], z = slope[2][i];
+        const float flow = p->own[SOLID_FLOW][i] - v[0] * x - v[1] * y - v[2] * z;
+        const float now = kept * (part[i] + change * flow);
+        part[i] = x * x + y * y + z * z > 0 ? fminf(fmaxf(now, -BOUNDARY_MOST), BOUNDARY_MOST) : 0;
+    }
+}
+
 /* A step's move is a part of a spacing: without the guard of solids. */
 static inline void density_end_run(const CpuRange *range, const bool wide)
 {
@@ -323,6 +340,8 @@ static inline void density_end_run(const CpuRange *range, const bool wide)
 
 static void density_end(const CpuRange *range)
 {
+    if (range->cpu->now.own[SOLID])
+        fill_boundary_part(range);
     if (range->cpu->constants->wide)
         density_end_run(range, true);
     else
@@ -365,17 +384,6 @@ static void pack_divergence(const CpuRange *range)
     pack_place(range, DIVERGENCE_MOMENTUM, DIVERGENCE_BEGINS);
 }
 
-static void push(const CpuRange *range)
-{
-    const CpuParticles *p = &range->cpu->now;
-    cpu_pairs(range, &dfsph_push);
-    for (size_t i = range->begin; i < range->end; i++) {
-        p->ax[i] *= p->own[INVERSE_MASS][i];
-        p->ay[i] *= p->own[INVERSE_MASS][i];
-        p->az[i] *= p->own[INVERSE_MASS][i];
-    }
-}
-
 static void go_on(const CpuRange *range)
 {
     const CpuParticles p = range->cpu->now;
@@ -386,12 +394,6 @@ static void go_on(const CpuRange *range)
         motion[i][1] = p.own[BASE + 1][i] + dt * p.ay[i];
         motion[i][2] = p.own[BASE + 2][i] + dt * p.az[i];
     }
-}
-
-static void density_push(const CpuRange *range)
-{
-    push(range);
-    go_on(range);
 }
 
 /* Push by the boundary particles' own k, and the part along the solid. */
@@ -406,10 +408,16 @@ static void push_solids(const CpuRange *range)
     }
 }
 
-static void divergence_push(const CpuRange *range)
+static void push(const CpuRange *range)
 {
-    push(range);
-    if (range->cpu->now.own[SOLID])
+    const CpuParticles *p = &range->cpu->now;
+    cpu_pairs(range, &dfsph_push);
+    for (size_t i = range->begin; i < range->end; i++) {
+        p->ax[i] *= p->own[INVERSE_MASS][i];
+        p->ay[i] *= p->own[INVERSE_MASS][i];
+        p->az[i] *= p->own[INVERSE_MASS][i];
+    }
+    if (p->own[SOLID])
         push_solids(range);
     go_on(range);
 }
@@ -426,9 +434,9 @@ static void rate_solids(const CpuRange *range)
     }
 }
 
-/* n / n0 + LACK - 1 after the step. For divergence an excess of density at the begin counts as 0, and a lack
-   counts: such a particle is free to come together. Where pressure pulls, a lack counts as 0 too: no velocity
-   may close a gap in one step; positions do. */
+/* n / n0 + LACK + BOUNDARY_PART - 1 after the step. For divergence an excess of density at the begin counts
+   as 0, and a lack counts: such a particle is free to come together. Where pressure pulls, a lack counts as 0
+   too: no velocity may close a gap in one step; positions do. */
 static void rate(const CpuRange *range, bool of_density)
 {
     const CpuParticles *p = &range->cpu->now;
@@ -436,16 +444,17 @@ static void rate(const CpuRange *range, bool of_density)
     const bool pulls = range->cpu->constants->negative_pressure;
     float *residual = p->own[RESIDUAL];
     cpu_pairs(range, &dfsph_rate);
-    if (p->own[SOLID] && !of_density)
+    if (p->own[SOLID])
         rate_solids(range);
     const float *volume = p->volume, *k = p->pressure_term, change = dt / n0;
     const float above = of_density, below = of_density || !pulls,
                 free = pulls; /* factors: excess, lack, no k */
-    const float *lack = p->own[LACK];
+    const float *lack = p->own[LACK], *solids = p->own[BOUNDARY_PART];
     float *miss = p->own[MISS];
 #pragma omp simd
     for (size_t i = range->begin; i < range->end; i++) {
-        const float now = 1 / (volume[i] * n0) + lack[i] - 1, counts = now > 0 ? above : below;
+        const float now = 1 / (volume[i] * n0) + lack[i] + (solids ? solids[i] : 0) - 1,
+                    counts = now > 0 ? above : below;
         const float left = now * counts + change * residual[i], held = k[i] > 0 ? 1 : free;
         const float other = -held * left;
         residual[i] = left;
@@ -490,8 +499,8 @@ static PairCost rate_pair(const Constants *constants)
 }
 
 static const CpuPass pushes[] = {
-    {.loops = {{divergence_push, .walks = true, .pack = pack_divergence}}, .pair = push_pair},
-    {.loops = {{density_push, .walks = true, .pack = pack_density}}, .pair = push_pair},
+    {.loops = {{push, .walks = true, .pack = pack_divergence}}, .pair = push_pair},
+    {.loops = {{push, .walks = true, .pack = pack_density}}, .pair = push_pair},
 };
 static const CpuPass rates[] = {
     {.loops = {{divergence_rate, .walks = true, .packed = true}}, .pair = rate_pair},
@@ -504,17 +513,17 @@ static const CpuPass rates[] = {
         .writes = WRITES                                                                                     \
     }
 
-#define PUSH_READS "position id fluid base pressure_term residual factor inverse_mass change"
-#define RATE_READS "position id fluid volume lack pressure_term"
+#define PUSH_READS                                                                                           \
+    "position id fluid base pressure_term residual factor inverse_mass change solid_slope solid_share"
+#define RATE_READS "position id fluid volume lack pressure_term solid_slope solid_flow boundary_part"
 
 const Pass dfsph_divergence_begin =
     SOLVE("divergence begin", begins[0], "divergence_begin", "position velocity fluid volume other kept_term",
           "pressure_term residual change base");
-const Pass dfsph_divergence_push =
-    SOLVE("divergence push", pushes[0], "divergence_push", PUSH_READS " solid_slope solid_share",
-          "pressure_term acceleration change solid_by");
-const Pass dfsph_divergence_rate = SOLVE("divergence rate", rates[0], "divergence_rate",
-                                         RATE_READS " solid_slope solid_flow", "residual miss");
+const Pass dfsph_divergence_push = SOLVE("divergence push", pushes[0], "divergence_push", PUSH_READS,
+                                         "pressure_term acceleration change solid_by");
+const Pass dfsph_divergence_rate =
+    SOLVE("divergence rate", rates[0], "divergence_rate", RATE_READS, "residual miss");
 const Pass dfsph_divergence_end = {
     .name = "divergence end",
     .stage = STAGE_SOLVE,
@@ -527,12 +536,13 @@ const Pass dfsph_divergence_end = {
 const Pass dfsph_density_begin =
     SOLVE("density begin", begins[1], "density_begin", "position velocity fluid volume acceleration",
           "pressure_term residual change other acceleration base");
-const Pass dfsph_density_push =
-    SOLVE("density push", pushes[1], "density_push", PUSH_READS, "pressure_term acceleration change");
+const Pass dfsph_density_push = SOLVE("density push", pushes[1], "density_push", PUSH_READS,
+                                      "pressure_term acceleration change solid_by");
 const Pass dfsph_density_rate = SOLVE("density rate", rates[1], "density_rate", RATE_READS, "residual miss");
 const Pass dfsph_density_end =
-    SOLVE("density end", ends[1], "density_end", "position remainder acceleration other",
-          "position remainder acceleration");
+    SOLVE("density end", ends[1], "density_end",
+          "position remainder acceleration other solid_slope solid_flow boundary_part",
+          "position remainder acceleration boundary_part");
 
 static bool many_viscous(const Constants *constants)
 {
@@ -553,7 +563,10 @@ const ColumnDef dfsph_columns[] = {
     {"other", "m/s2", OWN(OTHER), 3, COLUMN_FLOAT},
     {"base", "m/s", OWN(BASE), 3, COLUMN_FLOAT},
     SOLID_COLUMN_ROWS(SOLID, COLUMN_SHADERS),
-    {"solid_flow", "1/s", OWN(SOLID_FLOW), 1, COLUMN_FLOAT, .needed = incompressible_has_solids},
+    {"solid_flow", "1/s", OWN(SOLID_FLOW), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS,
+     .needed = incompressible_has_solids},
+    {"boundary_part", "", OWN(BOUNDARY_PART), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED,
+     .needed = incompressible_has_solids},
     {"viscosity", "Pa s", .at = offsetof(ParticleColumns, viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
      .needed = many_viscous},
     {0},
