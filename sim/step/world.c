@@ -15,9 +15,12 @@
 static void start_method(World *world)
 {
     const Pass *const *pass = world->method->start;
+    const BoxState *box = &world->box;
+    ApparentGravity apparent;
+    apparent_gravity(world->def.gravity, box, box, box, world->def.dt, &apparent);
     for (; pass && *pass; pass++)
         if (!(*pass)->needed || (*pass)->needed(&world->constants))
-            world->backend->run(world->state, *pass, &(PassInput){0});
+            world->backend->run(world->state, *pass, &(PassInput){.apparent = &apparent});
 }
 
 static bool names_check(const WorldDef *def, Error *error)

@@ -137,8 +137,8 @@ static WorldDef cup_def(const char *method, int dimensions, Motion motion)
     def.sound_speed = fixture_coarse(60, 30);
     def.dt = 0.016; /* a frame */
     snprintf(def.method, sizeof def.method, "%s", method);
-    /* dfsph blows up at 19, and by chance at 20 and 22 */
-    def.substeps = strcmp(method, "pbf") == 0 ? 2 : strcmp(method, "dfsph") == 0 ? 24 : fixture_count(80, 40);
+    /* dfsph blows up at 21, and by chance at 24 and 26 */
+    def.substeps = strcmp(method, "pbf") == 0 ? 2 : strcmp(method, "dfsph") == 0 ? 30 : fixture_count(80, 40);
     *world_threads(&def) = 1;
     def.gravity[1] = -150; /* keeps the fluid in the cup */
     def.fluids[0].viscosity = 10;

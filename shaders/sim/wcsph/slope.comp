@@ -12,7 +12,7 @@ layout(std430, binding = SLOPES_BUFFER) buffer Slopes { vec4 slope[]; }; // w: t
 uint own_fluid;
 float own_relative;
 vec3 diagonal = vec3(0), mixed = vec3(0), b = vec3(0);
-bool next_to_solid = false; // diffusion there must level the gaps in the fluid's arrangement
+bool next_to_solid = false; // the slope of fluid at rest: diffusion there must level the gaps in the fluid's arrangement
 
 void meet(uint j, vec3 d, float volume)
 {
@@ -45,5 +45,5 @@ void main()
     diagonal *= scale;
     if (dimensions == 2)
         diagonal.z = 0.5 * (diagonal.x + diagonal.y);
-    slope[i].xyz = next_to_solid ? vec3(0) : renormalise(diagonal, mixed * scale, b * scale);
+    slope[i].xyz = next_to_solid ? inverse_sound2 * apparent_at(x) : renormalise(diagonal, mixed * scale, b * scale);
 }

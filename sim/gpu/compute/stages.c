@@ -58,7 +58,8 @@ void compute_pass(void *state, const Pass *pass, const PassInput *input)
     compute_boundary_grid(c); /* a drift may have moved the solids */
     if (c->takes_dt[at])
         glProgramUniform1f(c->program[at], PASS_DT_AT, input->dt);
-    if ((pass->stage == STAGE_FORCE || pass->stage == STAGE_INTEGRATE) && input->apparent)
+    /* the begin of a world has no force before its rates, whose dt is 0 */
+    if ((pass->stage == STAGE_FORCE || pass->stage == STAGE_INTEGRATE || input->dt == 0) && input->apparent)
         compute_set_force(c, input);
     if (pass->mirrors && c->constants->solid_count > 0)
         compute_boundary_fill(c);

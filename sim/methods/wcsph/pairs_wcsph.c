@@ -129,9 +129,28 @@ PAIR_LOOP(wcsph_corrected_friction)
      force_i = sum (p_i V_i^2 + p_j V_j^2) F x_ij + ...
    conserves the energy of that rate. */
 
+/* g / c^2, with the apparent gravity: the gradient of relative density of fluid at rest in the box. After: G.
+   Fourtakas et al., "Local uniform stencil (LUST) boundary condition for arbitrary 3-D boundaries in parallel
+   smoothed particle hydrodynamics (SPH) models", 2019. */
+static LaneVector slope_at_rest(const PairArgs *args, size_t i, size_t begin, size_t end)
+{
+    float slope[3][LANES] = {{0}};
+    for (size_t k = 0; k < LANES; k++) {
+        if (i + k < begin || i + k >= end)
+            continue;
+        const float x[3] = {args->x[i + k], args->y[i + k], args->z[i + k]};
+        float g[3];
+        apparent_gravity_at(args->gravity, x, g);
+        for (int a = 0; a < 3; a++)
+            slope[a][k] = wcsph_constants(args->constants)->inverse_sound2 * g[a];
+    }
+    return (LaneVector){f8_load(slope[0]), f8_load(slope[1]), f8_load(slope[2])};
+}
+
 /* Gradient of relative density within a fluid, exact for linear fields: (sum F x x^T)^-1 sum F (e_i - e_j)
-   x with x = x_ij (Antuono 2010, with equal volumes). 0 next to solids, where diffusion must level the gaps
-   in the fluid's arrangement. "Next" is slightly less than h, so that lists from half a drift ago suffice. */
+   x with x = x_ij (Antuono 2010, with equal volumes). Next to solids, where diffusion must level the gaps in
+   the fluid's arrangement, that of fluid at rest: without any, diffusion would drive eddies around solids.
+   "Next" is slightly less than h, so that lists from half a drift ago suffice. */
 SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
 {
     const Constants *s = args->constants;
@@ -166,9 +185,15 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
         if (s->dimensions == 2)
             m.zz = f8_splat(0.5f) * (m.xx + m.yy);
         g = renormalise(m, g);
-        lanes_store(args->own[SLOPE], i, begin, end, f8_masked(~solid, g.x));
-        lanes_store(args->own[SLOPE + 1], i, begin, end, f8_masked(~solid, g.y));
-        lanes_store(args->own[SLOPE + 2], i, begin, end, f8_masked(~solid, g.z));
+        if (i8_bits(solid) != 0) {
+            const LaneVector rest = slope_at_rest(args, i, begin, end);
+            g.x = f8_select(solid, rest.x, g.x);
+            g.y = f8_select(solid, rest.y, g.y);
+            g.z = f8_select(solid, rest.z, g.z);
+        }
+        lanes_store(args->own[SLOPE], i, begin, end, g.x);
+        lanes_store(args->own[SLOPE + 1], i, begin, end, g.y);
+        lanes_store(args->own[SLOPE + 2], i, begin, end, g.z);
     }
 }
 

@@ -138,6 +138,7 @@ static void wcsph_set(Constants *constants, const WorldDef *def)
                                                    : SHIFT_RETURN;
     const float crossings = constants->sound_speed / constants->support_radius;
     WcsphBlock own = {.density_return = crossings / times,
+                      .inverse_sound2 = 1 / (constants->sound_speed * constants->sound_speed),
                       .boundary_relaxes = 0.5F * crossings / BOUNDARY_RELAXES};
     const double reach = 0.5 * def->support * def->spacing, c = def->sound_speed;
     kernel_set(&own, constants, def);
