@@ -35,14 +35,6 @@ static bool follow_letters(Renderer *renderer, bool wanted, int height, Error *e
     return true;
 }
 
-/* Adds the data that passes derive while drawing. */
-static ParticleWants made_for(const ViewDef *def)
-{
-    ParticleWants wants = renderer_wants(def);
-    wants.scalars |= wants.drawn_scalars;
-    return wants;
-}
-
 unsigned renderer_attributes(const ViewDef *def)
 {
     const unsigned fluid =
@@ -55,7 +47,7 @@ unsigned renderer_attributes(const ViewDef *def)
 
 static bool follow_derived(Renderer *renderer, const ViewDef *def, Error *error)
 {
-    const ParticleWants wants = made_for(def);
+    const ParticleWants wants = renderer_wants(def);
     if (!derived_update(&renderer->derived, &wants, error))
         return false;
     if (!view_def_ranges(def) || renderer->ranges.find)
@@ -171,7 +163,7 @@ bool renderer_set_def(Renderer *renderer, const ViewDef *said, const WorldDef *w
                                          renderer->target.height, error) &&
                           follow_view(renderer, &subject, error);
     if (followed) {
-        const ParticleWants wants = made_for(def);
+        const ParticleWants wants = renderer_wants(def);
         renderer->said = *said;
         renderer->def = *def;
         renderer->world = *subject.world;

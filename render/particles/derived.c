@@ -28,10 +28,10 @@ typedef struct DerivedFormula {
 
 enum { NOTHING = -1 };
 
-/* The fraction of the kernel that is fluid, with walls mirrored. A particle in a flat surface, half a
-   spacing below, has 0.74; the next layer has 1. A particle in the box's corner has 0.83: images beyond
-   two walls are left out. */
-static const double AIR_FROM = 0.83, AIR_ALL = 0.75;
+/* The fraction of the kernel that is fluid, with walls mirrored, where foam is seen. A particle in a flat
+   surface, half a spacing below, has 0.74; the next layer has 1. A particle in the box's corner has 0.83:
+   images beyond two walls are left out. A single drop has 0.12, a pair 0.18, a sheet of one layer 0.4. */
+static const float AIR_BOUNDS[4] = {0.2F, 0.4F, 0.75F, 0.83F};
 
 static const DerivedFormula scalar_recipes[SCALAR_COUNT] = {
     /* used if the state has births by id, not per particle */
@@ -65,6 +65,10 @@ static const DerivedFormula vector_recipes[VECTOR_COUNT] = {
     [VECTOR_FRICTION_BEFORE] = {"vec4(three, 0.0)", 0, NOTHING, false, SCALAR_FRICTION_BEFORE_X},
     [VECTOR_ACCELERATION] = {"vec4(three, 0.0)", 0, NOTHING, false, SCALAR_ACCELERATION_X},
 };
+
+/* Of derived_foam: two numbers per particle. */
+static const DerivedFormula foam_recipe = {"foam_inputs(trapped, filled)", PARTICLE_VELOCITY, NOTHING, true,
+                                           .meets = true};
 
 /* ---- inputs ---- */
 
@@ -159,9 +163,10 @@ static bool follow(Derived *derived, unsigned *program, const DerivedFormula *re
     if (!recipe->value)
         return true;
     snprintf(defines, sizeof defines, "#define VALUE_TYPE %s\n#define VALUE %s\n%s%s", type, recipe->value,
-             recipe->meets      ? "#define NEAR 1\n#define MEETS 1\n"
-             : recipe->near_too ? "#define NEAR 1\n"
-                                : "",
+             recipe == &foam_recipe ? "#define NEAR 1\n#define MEETS 1\n#define FOAM 1\n"
+             : recipe->meets        ? "#define NEAR 1\n#define MEETS 1\n"
+             : recipe->near_too     ? "#define NEAR 1\n"
+                                    : "",
              reads_defines(recipe));
     return follow_near(derived, recipe, error) &&
            compile(program, "derived/derived.comp", name, defines, error);
@@ -179,6 +184,8 @@ bool derived_update(Derived *derived, const ParticleWants *wants, Error *error)
             !follow(derived, &derived->vector_program[v], &vector_recipes[v], vector_list[v].name, "vec4",
                     error))
             return false;
+    if (wants->foam && !follow(derived, &derived->foam_program, &foam_recipe, "foam", "vec2", error))
+        return false;
     return !wants->neighbours || follow_neighbourhood(derived, error);
 }
 
@@ -188,6 +195,7 @@ void derived_destroy(Derived *derived)
         glDeleteProgram(derived->scalar_program[s]);
     for (int v = 0; v < VECTOR_COUNT; v++)
         glDeleteProgram(derived->vector_program[v]);
+    glDeleteProgram(derived->foam_program);
     for (int p = 0; p < 2; p++) {
         glDeleteProgram(derived->pack[p].program);
         glDeleteTextures(1, &derived->pack[p].texels);
@@ -220,7 +228,7 @@ static bool needs_near(const ParticleWants *wants, const DerivedPack *pack, Deri
         if ((wants->vectors & VECTOR_BIT(v)) && vector_recipes[v].near_too &&
             (!pack || pack_of(derived, &vector_recipes[v]) == pack))
             return true;
-    return false;
+    return wants->foam && (!pack || pack_of(derived, &foam_recipe) == pack);
 }
 
 void derived_release(Derived *derived, const ParticleWants *wants)
@@ -228,7 +236,7 @@ void derived_release(Derived *derived, const ParticleWants *wants)
     for (int s = 0; s < SCALAR_COUNT; s++)
         if (!(wanted_scalars(wants) & SCALAR_BIT(s)))
             give_back(&derived->scalar_buffer[s], &derived->scalar_capacity[s]);
-    if (!(wanted_scalars(wants) & SCALAR_BIT(SCALAR_TRAPPED_AIR)))
+    if (!wants->foam)
         give_back(&derived->foam_buffer, &derived->foam_capacity);
     for (int v = 0; v < VECTOR_COUNT; v++)
         if (!(wants->vectors & VECTOR_BIT(v)))
@@ -248,7 +256,7 @@ void derived_release(Derived *derived, const ParticleWants *wants)
 
 size_t derived_bytes(const Derived *derived)
 {
-    size_t bytes = 4 * derived->foam_capacity;
+    size_t bytes = 8 * derived->foam_capacity;
     for (int s = 0; s < SCALAR_COUNT; s++)
         bytes += 4 * derived->scalar_capacity[s];
     for (int v = 0; v < VECTOR_COUNT; v++)
@@ -407,8 +415,7 @@ static bool due(bool wanted, unsigned program, const DerivedFormula *recipe, con
     return wanted && program && particles->count > 0 && has(recipe, particles);
 }
 
-/* Slower particles need no sums. With `slowest` above 0, particles away from air count nothing. */
-static void set_meets(unsigned program, const DerivedJob *making, double slowest)
+static void set_walls(unsigned program, const DerivedJob *making)
 {
     float low[3], high[3];
     for (int k = 0; k < 3; k++) {
@@ -417,35 +424,40 @@ static void set_meets(unsigned program, const DerivedJob *making, double slowest
         low[k] = walled ? (float)(k == 1 ? 0 : -size / 2) : -1e9F;
         high[k] = walled ? (float)(k == 1 ? size : size / 2) : 1e9F;
     }
-    glProgramUniform1f(program, SLOWEST_AT, (float)slowest);
-    glProgramUniform1f(program, AIR_FROM_AT, slowest > 0 ? (float)AIR_FROM : 0);
-    glProgramUniform1f(program, AIR_ALL_AT, (float)AIR_ALL);
     glProgramUniform3f(program, WALLED_LOW_AT, low[0], low[1], low[2]);
     glProgramUniform3f(program, WALLED_HIGH_AT, high[0], high[1], high[2]);
 }
 
 /* Returns buffer 0 if there is no memory. */
-static ParticleAttribute make_scalar(DerivedJob *making, Scalar scalar, double slowest, unsigned *buffer,
-                                     size_t *capacity)
+static ParticleAttribute make_scalar(DerivedJob *making, Scalar scalar)
 {
     Derived *derived = making->derived;
     const DerivedFormula *recipe = &scalar_recipes[scalar];
     const unsigned program = derived->scalar_program[scalar];
-    if (!reserve(derived, buffer, capacity, making->particles->count, 4, scalar_list[scalar].name))
+    unsigned *buffer = &derived->scalar_buffer[scalar];
+    if (!reserve(derived, buffer, &derived->scalar_capacity[scalar], making->particles->count, 4,
+                 scalar_list[scalar].name))
         return (ParticleAttribute){0};
     if (recipe->meets)
-        set_meets(program, making, slowest);
+        set_walls(program, making);
     return make(making, recipe, program, *buffer, 4);
 }
 
-ParticleAttribute derived_trapped_air(Derived *derived, const DerivedSpace *space,
-                                      const ParticleBuffers *particles, double slowest)
+ParticleAttribute derived_foam(Derived *derived, const DerivedSpace *space, const ParticleBuffers *particles,
+                               double slowest, unsigned old_foam)
 {
-    const Scalar air = SCALAR_TRAPPED_AIR;
     DerivedJob making = {derived, space, particles, {0}};
-    if (!due(true, derived->scalar_program[air], &scalar_recipes[air], particles))
-        return particles->scalar[air];
-    return make_scalar(&making, air, slowest, &derived->foam_buffer, &derived->foam_capacity);
+    const unsigned program = derived->foam_program;
+    if (!due(true, program, &foam_recipe, particles) ||
+        !reserve(derived, &derived->foam_buffer, &derived->foam_capacity, particles->count, 8, "foam"))
+        return (ParticleAttribute){0};
+    set_walls(program, &making);
+    glProgramUniform1f(program, SLOWEST_AT, (float)slowest);
+    glProgramUniform4f(program, AIR_BOUNDS_AT, AIR_BOUNDS[0], AIR_BOUNDS[1], AIR_BOUNDS[2], AIR_BOUNDS[3]);
+    glProgramUniform1ui(program, FOAM_KNOWN_AT, old_foam != 0);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, OLD_FOAM_STORAGE,
+                     old_foam ? old_foam : particles->position.buffer);
+    return make(&making, &foam_recipe, program, derived->foam_buffer, 8);
 }
 
 void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpace *space,
@@ -459,8 +471,7 @@ void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpa
         if (particles->scalar[s].buffer ||
             !due(wanted_scalars(wants) & SCALAR_BIT(s), program, &scalar_recipes[s], particles))
             continue;
-        particles->scalar[s] =
-            make_scalar(&making, (Scalar)s, 0, &derived->scalar_buffer[s], &derived->scalar_capacity[s]);
+        particles->scalar[s] = make_scalar(&making, (Scalar)s);
     }
     if (wants->vectors & VECTOR_BIT(VECTOR_VELOCITY))
         particles->vector[VECTOR_VELOCITY] = particles->velocity;

@@ -392,7 +392,8 @@ typedef struct Derived {
     Neighbourhood neighbourhood; /* for ParticleWants.neighbours too */
     DerivedPack pack[2];         /* of velocities; of a scalar */
     unsigned births;             /* buffer: the table of ParticleBuffers.births */
-    unsigned foam_buffer;        /* result of derived_trapped_air */
+    unsigned foam_program;       /* 0 until first wanted */
+    unsigned foam_buffer;        /* result of derived_foam */
     size_t foam_capacity;
     const char *lacks; /* name of data that did not fit into GPU memory since derived_release; NULL: none */
 } Derived;
@@ -413,12 +414,13 @@ size_t derived_bytes(const Derived *derived);
 void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpace *space,
                   ParticleBuffers *particles);
 
-/* SCALAR_TRAPPED_AIR, for particles near air with at least the speed `slowest`, m/s; 0 for all others.
-   Costs almost nothing if all are slower. The result is not stored in the state, whose scalars colour the
-   particles. Valid until the next call of this function. derived_update creates the program; without a
-   program, returns the state's own attribute. */
-ParticleAttribute derived_trapped_air(Derived *derived, const DerivedSpace *space,
-                                      const ParticleBuffers *particles, double slowest);
+/* Inputs of foam (ParticleWants.foam): two floats per particle with at least the speed `slowest`, m/s, or
+   with `old_foam` above 0; 0 for all others. The first is SCALAR_TRAPPED_AIR, less away from air. The second
+   is the share of old foam that is seen: none away from air, none on a single drop. `old_foam`: a buffer with
+   a float per particle; 0: none. Costs almost nothing if no particle needs sums. Valid until the next call
+   of this function; buffer 0 without a program, velocities or memory. */
+ParticleAttribute derived_foam(Derived *derived, const DerivedSpace *space, const ParticleBuffers *particles,
+                               double slowest, unsigned old_foam);
 
 /* The range of a scalar over all particles, computed on the GPU: one definition for every backend and
    file. The host reads five numbers, waiting or one picture late.

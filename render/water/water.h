@@ -44,15 +44,18 @@ extern const Effect effect_caustics;
 
    A particle foams if the particle traps air (SCALAR_TRAPPED_AIR) and is fast; both measures are clamped
    between two speeds, as in the paper. Up to FOAM_BUBBLES bubbles surround such a particle, at offsets
-   fixed by the particle's id. Unlike the paper, bubbles have no life of their own: foam depends on the
-   state alone, so a step back, a replay and a file show the same foam. Hence foam ends as soon as the
-   motion that made the foam does.
+   fixed by the particle's id. Unlike the paper, bubbles are not advected on their own: foam moves with the
+   particle, and of a picture's foam exp(-t / FOAM_LIFE) is left after a time t of the simulation. So a
+   picture's foam depends on the pictures before. The first picture, and one that is earlier than the picture
+   before, have only the foam that their own state makes.
 
-   Bubbles lie on the surface in the target's depth and, fainter, a little below. Bubbles write no depth,
-   cast no shadow, and are lit only where light arrives. At most FOAM_MOST bubbles are drawn, or one per
-   particle if more particles foam. */
+   A soft patch joins a particle's bubbles. Both lie on the surface in the target's depth and, fainter, a
+   little beside. They write no depth, cast no shadow, and are lit only where light arrives. At most FOAM_MOST
+   bubbles are drawn, or one per particle if more particles foam. */
 
 enum { FOAM_MOST = 200000 };
+
+#define FOAM_LIFE 1.0 /* s */
 
 /* Before the view: keeps the depth of solids. After the view: draws over the target's colour. */
 extern const Effect effect_foam_solids, effect_foam;

@@ -16,17 +16,28 @@ layout(location = NOW_AT) uniform float now;                      // time of the
 layout(location = FRAME_TURN_AT) uniform vec3 frame_turn;         // angular velocity of the box, in its axes, rad/s
 
 #ifdef MEETS
-layout(location = SLOWEST_AT) uniform float slowest; // m/s: slower particles need no sums
-// Fluid fractions of the kernel where no trapped air counts, and where all of it counts. Walls of the box, m; far away: none
-layout(location = AIR_FROM_AT) uniform float air_from;
-layout(location = AIR_ALL_AT) uniform float air_all;
-layout(location = WALLED_LOW_AT) uniform vec3 walled_low;
+layout(location = WALLED_LOW_AT) uniform vec3 walled_low; // walls of the box, m; far away: none
 layout(location = WALLED_HIGH_AT) uniform vec3 walled_high;
+#endif
+
+#ifdef FOAM
+layout(location = SLOWEST_AT) uniform float slowest; // m/s: slower particles without foam need no sums
+// Fluid fractions of the kernel: none of the foam is seen, and all; all, and none.
+layout(location = AIR_BOUNDS_AT) uniform vec4 air_bounds;
+layout(location = FOAM_KNOWN_AT) uniform bool foam_known;
+layout(std430, binding = OLD_FOAM_STORAGE) readonly buffer OldFoam { float old_foam[]; };
 bool asked_for(uint i)
 {
     vec3 velocity = velocity_of(i);
     bool slower = dot(velocity, velocity) < slowest * slowest;
-    return !slower;
+    return !slower || (foam_known && old_foam[i] > 0.0);
+}
+
+// Trapped air near air, and the share of old foam that is seen.
+vec2 foam_inputs(float trapped, float filled)
+{
+    float open = 1.0 - smoothstep(air_bounds.z, air_bounds.w, filled);
+    return vec2(trapped * open, smoothstep(air_bounds.x, air_bounds.y, filled) * open);
 }
 #else
 #define asked_for(i) true
@@ -158,11 +169,8 @@ void main()
     float near = sums.count;
     mat3 correct = correction(sums.moment), gradient = sums.velocity * correct;
     vec3 slope = correct * sums.carried;
-    float per_room = 3.0 / 3.14159265 / (reach * reach * (two_dimensions != 0u ? 1.0 : reach)), trapped = per_room * sums.trapped;
-#ifdef MEETS
-    if (air_from > 0.0)
-        trapped *= 1.0 - smoothstep(air_all, air_from, per_room * sums.filled);
-#endif
+    float per_room = 3.0 / 3.14159265 / (reach * reach * (two_dimensions != 0u ? 1.0 : reach));
+    float trapped = per_room * sums.trapped, filled = per_room * sums.filled;
 #else
     uint i = at;
     vec3 place = particle_position(i);

@@ -9,6 +9,7 @@
 #define THREES_STORAGE     4 /* three buffers; for passes without neighbours */
 #define IDS_STORAGE        4 /* for the pass with births */
 #define BIRTHS_STORAGE     5
+#define OLD_FOAM_STORAGE   10
 /* for ranges */
 #define RANKS_FOUND_STORAGE 4
 #define RANK_BINS_STORAGE   5
@@ -31,8 +32,8 @@
 #define NOW_AT             24
 #define BIRTHS_COUNT_AT    25
 #define SLOWEST_AT         26
-#define AIR_FROM_AT        27
-#define AIR_ALL_AT         28
+#define AIR_BOUNDS_AT      27
+#define FOAM_KNOWN_AT      28
 #define WALLED_LOW_AT      29
 #define WALLED_HIGH_AT     30
 

@@ -40,7 +40,7 @@ void main()
     // Bubbles appear one by one and grow from size 0.
     float there = clamp(foam * float(each_has) - float(number) + 1.0, 0.0, 1.0);
     vec3 offset = patch_one ? vec3(0.0) : 0.8 * particle_spacing * in_ball(number, own);
-    float radius = particle_spacing * (patch_one ? 1.2 : there * (0.06 + 0.12 * size * size) * sqrt(float(FOAM_BUBBLES) / float(each_has)));
+    float radius = particle_spacing * (patch_one ? 1.6 : there * (0.06 + 0.12 * size * size) * sqrt(float(FOAM_BUBBLES) / float(each_has)));
     vec3 half_box = 0.5 * box_size, place = particle_position(entry.x) + offset;
     place = clamp(place, vec3(-half_box.x, 0.0, -half_box.z), vec3(half_box.x, box_size.y, half_box.z));
     vec3 at = (box_to_eye * vec4(place, 1.0)).xyz;
@@ -48,7 +48,7 @@ void main()
 #ifdef SOLIDS
     key *= solid_light(at);
 #endif
-    float hides = patch_one ? 0.5 * foam : 0.65 * min(pixels * pixels, 1.0);
+    float hides = patch_one ? 0.45 * foam : 0.6 * min(pixels * pixels, 1.0);
     vec3 white = ambient_light(up_in_eye) * 0.85 + 0.45 * key * light_color;
     light = vec4(mix(vec3(1.0), white, shading), hides);
     bubble = vec3(-at.z, radius, patch_one ? 1.0 : 0.0);

@@ -9,7 +9,9 @@
 /* Storage buffers */
 #define FOAM_VELOCITIES_STORAGE 3
 #define FOAM_LIST_STORAGE       5
-#define FOAM_COMMAND_STORAGE    6 /* drawing command for points, and bubbles per particle */
+#define FOAM_TABLE_STORAGE      5 /* amounts by id */
+#define FOAM_AMOUNTS_STORAGE    6
+#define FOAM_COMMAND_STORAGE    7 /* drawing command for points, and bubbles per particle */
 
 /* Texture units */
 #define FOAM_SURFACE_UNIT 6
@@ -19,5 +21,8 @@
 #define FOAM_SPEEDS_AT          17
 #define FOAM_VELOCITY_STRIDE_AT 18
 #define FOAM_MOST_AT            19
+#define FOAM_LEFT_AT            20
+#define FOAM_SLOTS_AT           21
+#define FOAM_PARTICLES_AT       22
 
 #endif

@@ -60,11 +60,11 @@ enum {
 
 /* Data read of a state's particles besides positions. */
 typedef struct ParticleWants {
-    uint64_t scalars;       /* SCALAR_BIT, including scalars of the state */
-    uint32_t vectors;       /* VECTOR_BIT */
-    unsigned attributes;    /* PARTICLE_VELOCITY, PARTICLE_FLUID, PARTICLE_ID */
-    uint64_t drawn_scalars; /* SCALAR_BIT: derived by a pass while drawing, and no part of the state */
-    bool neighbours;        /* a pass reads the picture's neighbourhood while drawing */
+    uint64_t scalars;    /* SCALAR_BIT, including scalars of the state */
+    uint32_t vectors;    /* VECTOR_BIT */
+    unsigned attributes; /* PARTICLE_VELOCITY, PARTICLE_FLUID, PARTICLE_ID */
+    bool foam;           /* a pass derives the inputs of foam while drawing */
+    bool neighbours;     /* a pass reads the picture's neighbourhood while drawing */
 } ParticleWants;
 
 #define SCALAR_BIT(scalar) (UINT64_C(1) << (scalar))

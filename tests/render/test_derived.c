@@ -13,7 +13,8 @@ typedef struct Cloud {
     float position[4 * ALL], velocity[4 * ALL], density[ALL], pressure[ALL], three[3][ALL];
     float scalar[SCALAR_COUNT][ALL], vector[VECTOR_COUNT][4 * ALL];
     double slowest;      /* m/s */
-    float fast_air[ALL]; /* trapped air of particles at least as fast */
+    bool all_foam;       /* all particles have old foam */
+    float foam[2 * ALL]; /* of derived_foam: trapped air of particles at least as fast; old foam seen */
 } Cloud;
 
 static void add(Cloud *cloud, double x, double y, double z, double volume)
@@ -89,8 +90,8 @@ static void read_back(const ParticleAttribute *from, size_t count, float *to)
 /* All existing scalars and vectors. */
 static void derive(Cloud *cloud)
 {
-    const ParticleWants wants = {.scalars = SCALAR_BIT(SCALAR_COUNT) - 1,
-                                 .vectors = VECTOR_BIT(VECTOR_COUNT) - 1};
+    const ParticleWants wants = {
+        .scalars = SCALAR_BIT(SCALAR_COUNT) - 1, .vectors = VECTOR_BIT(VECTOR_COUNT) - 1, .foam = true};
     const size_t count = cloud->state.count;
     Error error = {0};
     ParticleBuffers particles;
@@ -128,9 +129,16 @@ static void derive(Cloud *cloud)
         assert_true(particles.vector[v].buffer || count == 0);
         read_back(&particles.vector[v], count, cloud->vector[v]);
     }
-    const ParticleAttribute foam = derived_trapped_air(&derived, &cloud->space, &particles, cloud->slowest);
+    static const float one = 1;
+    GLuint old = 0;
+    if (cloud->all_foam) {
+        work_buffer_remake(&old, count * sizeof one, "old foam");
+        glClearNamedBufferData(old, GL_R32F, GL_RED, GL_FLOAT, &one);
+    }
+    const ParticleAttribute foam = derived_foam(&derived, &cloud->space, &particles, cloud->slowest, old);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    read_back(&foam, count, cloud->fast_air);
+    read_back(&foam, count, cloud->foam);
+    glDeleteBuffers(1, &old);
     read_back(&particles.scalar[SCALAR_TRAPPED_AIR], count,
               cloud->scalar[SCALAR_TRAPPED_AIR]); /* unchanged */
     derived_destroy(&derived);
@@ -252,8 +260,8 @@ static void trapped_air_of_fast_particles_alone(void **state)
         const float *v = cloud->velocity + 4 * i;
         const float most =
             v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < 1 ? 0 : cloud->scalar[SCALAR_TRAPPED_AIR][i];
-        fast += most > 0 && cloud->fast_air[i] == most;
-        assert_true(cloud->fast_air[i] >= 0 && cloud->fast_air[i] <= most);
+        fast += most > 0 && cloud->foam[2 * i] == most;
+        assert_true(cloud->foam[2 * i] >= 0 && cloud->foam[2 * i] <= most);
     }
     assert_in_range(fast, 10, cloud->state.count - 100);
     free(cloud);
@@ -272,8 +280,32 @@ static void trapped_air_below_the_top_is_none(void **state)
     for (size_t i = 0; i < cloud->state.count; i++) {
         const size_t layer = i / 8 % 8;
         assert_true(cloud->scalar[SCALAR_TRAPPED_AIR][i] > 0);
-        assert_true(layer == 7 ? cloud->fast_air[i] == cloud->scalar[SCALAR_TRAPPED_AIR][i]
-                               : cloud->fast_air[i] == 0);
+        assert_true(layer == 7 ? cloud->foam[2 * i] == cloud->scalar[SCALAR_TRAPPED_AIR][i]
+                               : cloud->foam[2 * i] == 0);
+    }
+    free(cloud);
+}
+
+/* Slow fluid in a tank, and a drop above: old foam is seen on the top and nowhere else. */
+static void old_foam_is_seen_on_the_surface(void **state)
+{
+    (void)state;
+    Cloud *cloud = lattice(8, 8, 8, 0.05, 2.1);
+    const size_t drop = 4 + 8 * 7 + 64 * 4; /* a particle of the top layer is lifted */
+    cloud->state.box_size[1] *= 2;
+    cloud->position[4 * drop + 1] += 0.3F;
+    cloud->slowest = 1;
+    for (int foam = 0; foam < 2; foam++) {
+        cloud->all_foam = foam == 1;
+        derive(cloud);
+        for (size_t i = 0; i < cloud->state.count; i++) {
+            const size_t layer = i / 8 % 8;
+            const float seen = cloud->foam[2 * i + 1];
+            assert_true(cloud->foam[2 * i] == 0);
+            if (i == drop - 8) /* below the place that the drop has left */
+                continue;
+            assert_true(layer == 7 && i != drop && foam == 1 ? seen > 0.99F : seen == 0);
+        }
     }
     free(cloud);
 }
@@ -521,6 +553,7 @@ int main(void)
         cmocka_unit_test_teardown(a_linear_pressure_has_its_gradient, no_gl_errors),
         cmocka_unit_test_teardown(trapped_air_is_that_of_smooth_flows, no_gl_errors),
         cmocka_unit_test_teardown(trapped_air_of_fast_particles_alone, no_gl_errors),
+        cmocka_unit_test_teardown(old_foam_is_seen_on_the_surface, no_gl_errors),
         cmocka_unit_test_teardown(trapped_air_below_the_top_is_none, no_gl_errors),
         cmocka_unit_test_teardown(two_that_meet_trap_air, no_gl_errors),
         cmocka_unit_test_teardown(scattered_particles_are_as_summed_over_all, no_gl_errors),
