@@ -78,6 +78,27 @@ class New(CommandTest):
         self.assertEqual(self.entries(), ['my.yaml'])
 
 
+class Streams(CommandTest):
+    def gaps_and_widths(self, *more):
+        """Of the light oil's stream in `bowl`: the widest gap along it in spacings, and its widths at the top and below."""
+        import h5py
+        import numpy
+        code, said = self.slosh('run', 'bowl', '-o', 'out.h5part', '--time', '0.8', '--every', '0.8', '--quiet', *more)
+        self.assertEqual(code, 0, said)
+        with h5py.File(self.path('out.h5part')) as file:
+            last = file[sorted(file, key=lambda name: int(name.rpartition('#')[2]))[-1]]
+            x, y, z, fluid = (numpy.array(last[name]) for name in ('x', 'y', 'z', 'fluid'))
+        stream = (fluid == 0) & (y > 0.16)
+        widths = [numpy.std(z[stream & (y > low) & (y < low + 0.03)]) for low in (0.25, 0.17)]
+        return numpy.diff(numpy.sort(y[stream])).max() / 0.009, *widths
+
+    def test_a_stream_stays_whole_and_becomes_thinner(self):
+        gap, top, below = self.gaps_and_widths()
+        self.assertLess(gap, 0.7)
+        self.assertLess(below, 0.8 * top)
+        self.assertGreater(self.gaps_and_widths('--set', 'solver.surface_tension=none')[0], 1.2)
+
+
 class Sample(CommandTest):
     def test_the_recording_of_a_motion_device_holds_the_tray_level(self):
         import h5py
