@@ -213,6 +213,27 @@ static void test_all_in_view_and_large(void **state)
 }
 
 /* The nearest wins whatever the order, in a box that has moved and turned. */
+/* Balls of a flat scene leave no hole between neighbours, but with a radius that is asked for. */
+static void test_flat_lattice_has_no_holes(void **state)
+{
+    (void)state;
+    static float depth[WIDTH * HEIGHT];
+    for (int asked = 0; asked < 2; asked++) {
+        Scene scene = scene_create((double[3]){0, 0.5, 1.5}, (double[3]){0, 0.5, 0}, 30, 0.025);
+        int holes = 0;
+        scene.def.radius = asked ? 0.5 : 0;
+        scene.state.box_size[2] = scene.state.spacing;
+        for (int i = 0; i < 40; i++)
+            for (int j = 0; j < 20; j++)
+                particles_add(scene.particles, -1 + (i + 0.5) * 0.05, (j + 0.5) * 0.05, 0, 0, 0);
+        draw_depth(&scene, depth);
+        for (int i = 0; i < WIDTH * HEIGHT; i++)
+            holes += depth[i] == 0;
+        assert_int_equal(holes > 0, asked);
+        free(scene.particles);
+    }
+}
+
 static void test_many_in_any_order(void **state)
 {
     (void)state;
@@ -244,6 +265,7 @@ int main(void)
         cmocka_unit_test_teardown(test_small_and_far, no_gl_errors),
         cmocka_unit_test_teardown(test_all_in_view, no_gl_errors),
         cmocka_unit_test_teardown(test_all_in_view_and_large, no_gl_errors),
+        cmocka_unit_test_teardown(test_flat_lattice_has_no_holes, no_gl_errors),
         cmocka_unit_test_teardown(test_many_in_any_order, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);

@@ -106,8 +106,12 @@ static void spheres_prepare(void *state, const ParticleBuffers *particles, const
         }
 }
 
+/* In two dimensions, balls that just touch leave holes, a moire in the picture: half the diagonal of a square
+   of neighbours leaves none. */
 static void spheres_radii(const ViewDef *def, const ParticleBuffers *particles, ParticleRadii *radii)
 {
+    if (def->radius == 0 && frame_slab_depth(particles) > 0)
+        radii->drawn = radii->reach = (float)(sqrt(0.5) * particles->spacing);
     radii->reach *= (float)particle_curves_reach(def, particles);
 }
 
