@@ -8,7 +8,13 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { TICKS_MOST = 7, SCALAR_WIDTH_EM = 8, SCALAR_HEIGHT_EM = 15 };
+enum { TICKS_MOST = 7, SCALAR_WIDTH_EM = 8, SCALAR_HEIGHT_EM = 15, CURVE_ROWS = 2 };
+
+static const float ROW_EM = 1.4F; /* of the lines below the panel */
+
+/* Of a picture's width: in a small picture, the legend covers a part of the box rather than leave no room for
+   the box. The middle of the picture must stay free, from where camera_make looks for the largest box. */
+static const double MOST_ROOM = 0.45;
 
 /* Positions in units of the letter height: the legend grows with the picture. */
 typedef struct LegendLayout {
@@ -69,13 +75,21 @@ double legend_width_pixels(const ViewDef *def, const WorldDef *world, int height
     return ((fluids ? fluids_width_em(world) : SCALAR_WIDTH_EM) + 1) * legend_text_pixels(height);
 }
 
+static double room_width_em(const WorldDef *world)
+{
+    return fmax(fluids_width_em(world), SCALAR_WIDTH_EM);
+}
+
 CoveredParts legend_room(const ViewDef *def, const WorldDef *world, int width, int height)
 {
     const double em = legend_text_pixels(height), around = 1; /* to the picture's edges */
+    const int curves = (def->opacity.by != 0) + (def->size.by != 0);
     if (!def->legend)
         return (CoveredParts){0};
-    return (CoveredParts){.right = (fmax(fluids_width_em(world), SCALAR_WIDTH_EM) + around) * em / width,
-                          .top = (fmax(fluids_height_em(world), SCALAR_HEIGHT_EM) + around) * em / height};
+    const double right = (room_width_em(world) + around) * em / width;
+    const double top = (fmax(fluids_height_em(world), SCALAR_HEIGHT_EM) + around) * em / height;
+    return (CoveredParts){.right = fmin(right, MOST_ROOM),
+                          .top = top + curves * CURVE_ROWS * ROW_EM * em / height};
 }
 
 int legend_ticks(double min, double max, int most, double ticks[], int *decimals)
@@ -171,29 +185,69 @@ static void draw_ticks(Text *text, const LegendLayout *layout, const double rang
     }
 }
 
-/* "opacity: pressure, 0 to 2000 Pa" below the panel. */
-static void draw_curve(Text *text, const LegendLayout *layout, float line, const char *what,
-                       const ScalarCurve *curve, const double range[2])
+/* Number of bytes of a line that fit into `width`: breaks at spaces, takes at least one word. */
+static size_t line_bytes(Text *text, const char *line, float width)
 {
-    char unit[32], label[96];
+    char part[512];
+    size_t bytes = strcspn(line, " ");
+    while (line[bytes]) {
+        const size_t end = bytes + 1 + strcspn(line + bytes + 1, " ");
+        snprintf(part, sizeof part, "%.*s", (int)end, line);
+        if (end >= sizeof part || text_width(text, 1, part) > width)
+            break;
+        bytes = end;
+    }
+    return bytes;
+}
+
+/* Draws words from `top` down, in letter heights, in lines as wide as the room of the legend. Returns their
+   end. */
+static float draw_rows(Text *text, const Frame *frame, float top, const char *words)
+{
+    enum { LINE_MOST = 512 };
+    const LegendLayout layout = make_layout(text, frame, 0, top);
+    const float width = fminf((float)room_width_em(frame->world) * layout.em, layout.right - layout.em);
+    const char *rest = words;
+    while (*rest) {
+        char line[LINE_MOST];
+        const size_t bytes = line_bytes(text, rest, width);
+        snprintf(line, sizeof line, "%.*s", (int)bytes, rest);
+        text_draw(text, layout.right, (1 + top) * layout.em, 1, layout.ink, TEXT_RIGHT, line);
+        top += ROW_EM;
+        rest += bytes + strspn(rest + bytes, " ");
+    }
+    return top;
+}
+
+static void number_words(double number, char out[16])
+{
+    snprintf(out, 16, fabs(number) >= 1e3 && fabs(number) < 1e6 ? "%.0f" : "%.3g", number);
+}
+
+/* "opacity: pressure" and "0 to 2000 Pa" below the panel. */
+static float draw_curve(Text *text, const Frame *frame, float top, const char *what, const ScalarCurve *curve,
+                        const double range[2])
+{
+    char unit[32], label[96], numbers[2][16];
     legend_unit(scalar_unit(scalar_of_curve(curve)), unit);
-    snprintf(label, sizeof label, "%s: %s, %.5g to %.5g%s%s", what, scalar_name(scalar_of_curve(curve)),
-             range[0], range[1], *unit ? " " : "", unit);
-    text_draw(text, layout->right, layout->bottom + (0.5F + 1.4F * line) * layout->em, 1, layout->ink,
-              TEXT_RIGHT, label);
+    snprintf(label, sizeof label, "%s: %s", what, scalar_name(scalar_of_curve(curve)));
+    top = draw_rows(text, frame, top, label);
+    number_words(range[0], numbers[0]);
+    number_words(range[1], numbers[1]);
+    snprintf(label, sizeof label, "%s to %s%s%s", numbers[0], numbers[1], *unit ? " " : "", unit);
+    return draw_rows(text, frame, top, label);
 }
 
 /* Legend lines of opacity and size, if the view draws these curves. `bottom`: lower side of the panels
    above, in letter heights. */
 static void draw_curves(Text *text, const Frame *frame, float bottom)
 {
-    const LegendLayout layout = make_layout(text, frame, 0, bottom);
     const ViewDef *def = frame->def;
-    float line = 0;
+    float top = bottom + 0.5F;
     if (frame->curves.drawn & VIEW_OPACITY && def->opacity.by != 0)
-        draw_curve(text, &layout, line++, "opacity", &def->opacity, frame->curves.opacity);
+        top = draw_curve(text, frame, top, "opacity", &def->opacity, frame->curves.opacity);
     if (frame->curves.drawn & VIEW_SIZE && def->size.by != 0)
-        draw_curve(text, &layout, line, "size", &def->size, frame->curves.size);
+        draw_curve(text, frame, top, "size", &def->size, frame->curves.size);
 }
 
 /* Returns the height in letter heights, as does draw_fluids. */
@@ -283,39 +337,6 @@ static float draw_colors(Text *text, const Frame *frame)
     return frame->world->fluid_count > 0 ? draw_fluids(text, frame) : 0;
 }
 
-/* Number of bytes of a line that fit into `width`: breaks at spaces, takes at least one word. */
-static size_t line_bytes(Text *text, const char *line, float width)
-{
-    char part[512];
-    size_t bytes = strcspn(line, " ");
-    while (line[bytes]) {
-        const size_t end = bytes + 1 + strcspn(line + bytes + 1, " ");
-        snprintf(part, sizeof part, "%.*s", (int)end, line);
-        if (end >= sizeof part || text_width(text, 1, part) > width)
-            break;
-        bytes = end;
-    }
-    return bytes;
-}
-
-/* Breaks the note into lines, so that nothing is cut off at the left. */
-static float draw_note(Text *text, const Frame *frame, const char *note, float top)
-{
-    enum { LINE_MOST = 512 };
-    const LegendLayout layout = make_layout(text, frame, 0, top);
-    const char *rest = note;
-    float y = layout.bottom + 0.6F * layout.em;
-    while (*rest) {
-        char line[LINE_MOST];
-        const size_t bytes = line_bytes(text, rest, layout.right - layout.em);
-        snprintf(line, sizeof line, "%.*s", (int)bytes, rest);
-        text_draw(text, layout.right, y, 1, layout.faint, TEXT_RIGHT, line);
-        y += 1.4F * layout.em;
-        rest += bytes + strspn(rest + bytes, " ");
-    }
-    return (y - layout.bottom) / layout.em - 0.6F;
-}
-
 /* Draws a line of text at x, y (pixels from the left and the top) in faint ink. */
 static void draw_line(Text *text, const Frame *frame, float x, float y, const char *line)
 {
@@ -344,7 +365,7 @@ static void draw_legend(Text *text, const Picture *picture)
     if (frame->colors.part_count > 0)
         bottom = draw_parts(text, frame, bottom);
     if (picture->note)
-        bottom += draw_note(text, frame, picture->note, bottom);
+        bottom = draw_rows(text, frame, bottom + 0.5F, picture->note);
     if (bottom > 0)
         draw_curves(text, frame, bottom);
     draw_overlay_lines(text, picture);

@@ -121,6 +121,17 @@ static void test_one_room_for_all_views(void **state)
     assert_true(legend_room(&def, &world, 1280, 720).right == 0);
 }
 
+/* In a thumbnail too, the box is more than two fifths as wide as the picture. */
+static void test_small_pictures_show_the_box(void **state)
+{
+    (void)state;
+    double right;
+    const ViewDef def = view_def_default();
+    const WorldDef world = {.fluid_count = 0};
+    for (int width = 120; width <= 320; width += 40)
+        assert_true(width_beside(legend_room(&def, &world, width, width * 3 / 4), &right) > 0.4);
+}
+
 static double fluid_legend(const char *name, double blue, double viscosity)
 {
     ViewDef def = view_def_default();
@@ -207,6 +218,45 @@ static void test_legend_is_drawn(void **state)
     }
 }
 
+/* Nothing of the legend, lines of curves included, is left of its room or below. */
+static void test_legend_stays_in_its_room(void **state)
+{
+    (void)state;
+    enum { LONG = 640, HIGH = 360 };
+    static uint8_t rgb[2][3 * LONG * HIGH];
+    Error error = {0};
+    ParticleBuffers none = box_state(0, 0.1);
+    none.scalar[SCALAR_SPEED].buffer = 1; /* only a check for presence: no drawing */
+    const WorldDef world = bare_world();
+    CoveredParts room = {0};
+    for (int legend = 0; legend < 2; legend++) {
+        ViewDef def = bare_view();
+        def.legend = legend == 1;
+        text_set(def.kind, "spheres");
+        def.color_by = SCALAR_SPEED;
+        def.opacity.by = 1 + SCALAR_PRESSURE, def.size.by = 1 + SCALAR_SPEED;
+        def.opacity.range[1] = 12345.6, def.size.range[1] = 0.0123456;
+        def.opacity.range_auto = def.size.range_auto = false;
+        def.camera_auto = false; /* the same sky */
+        if (legend)
+            room = legend_room(&def, &world, LONG, HIGH);
+        Renderer *renderer = renderer_create(&def, &world, LONG, HIGH, &error);
+        assert_non_null(renderer);
+        renderer_draw(renderer, &none, NULL);
+        renderer_read(renderer, rgb[legend]);
+        renderer_destroy(renderer);
+    }
+    int written = 0;
+    for (int i = 0; i < LONG * HIGH; i++) {
+        const bool time = i / LONG > HIGH - 40 && i % LONG < 80;
+        const bool inside = i % LONG >= LONG * (1 - room.right) && i / LONG < HIGH * room.top;
+        const bool same = memcmp(&rgb[0][3 * i], &rgb[1][3 * i], 3) == 0;
+        assert_true(same || inside || time);
+        written += !same && i / LONG > (1 + 15.5) * legend_text_pixels(HIGH);
+    }
+    assert_true(written > 400 && room.top < 0.9);
+}
+
 /* A fluid's colour in the legend equals the particles' colour: linear light converted for a screen. */
 static void test_fluids_have_their_colors(void **state)
 {
@@ -244,11 +294,13 @@ int main(void)
         cmocka_unit_test(test_units_as_people_write_them),
         cmocka_unit_test(test_camera_shows_the_box),
         cmocka_unit_test(test_camera_leaves_room_for_the_legend),
+        cmocka_unit_test(test_small_pictures_show_the_box),
         cmocka_unit_test(test_one_room_for_all_views),
         cmocka_unit_test(test_legend_tells_what_is_no_water),
         cmocka_unit_test(test_camera_leaves_room_for_a_panel),
         cmocka_unit_test(test_camera_follows_late),
         cmocka_unit_test_teardown(test_legend_is_drawn, no_gl_errors),
+        cmocka_unit_test_teardown(test_legend_stays_in_its_room, no_gl_errors),
         cmocka_unit_test_teardown(test_fluids_have_their_colors, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
