@@ -261,7 +261,10 @@ static void test_the_shown_view_has_its_keys_and_no_other(void **state)
     assert_non_null(desk_find(desk, "view.kind")); /* open at first */
     assert_null(desk_find(desk, "view.splat.weights"));
     assert_true(desk_find(desk, "View")->rect[1] < desk_find(desk, "Colours")->rect[1]);
+    show_view_of(&session, desk, "view.volume.look");
+    assert_null(desk_find(desk, "view.radius")); /* of its shadows alone: further below */
     show_view_of(&session, desk, "view.splat.weights");
+    assert_non_null(desk_find(desk, "view.radius"));
     desk_click_at(desk, "More of the view", 0.3F);
     assert_non_null(desk_find(desk, "view.splat.weights"));
     assert_null(desk_find(desk, "view.volume.look"));

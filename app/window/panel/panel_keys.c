@@ -321,7 +321,8 @@ static const char *const of_render[] = {"view.camera_turn", "view.carries_scene"
 /* Live keys to play with, and keys that say what the picture is. */
 static const char PLAY_GROUP[] = "Play", VIEW_GROUP[] = "View", MORE_GROUP[] = "More of the view";
 static const char *const of_play[] = {"gravity", "fluids[].viscosity"};
-static const char *const of_view[] = {"view.kind", "view.quality", "view.radius"};
+static const char *const of_view[] = {"view.kind", "view.quality"};
+static const char RADIUS[] = "view.radius"; /* of the picture where particles have a size, else of shadows */
 static const char *const of_each_view[] = {"look", "shading"}; /* of the view's own keys */
 
 #define IS_AMONG(paths, path) is_among(paths, sizeof(paths) / sizeof *(paths), path)
@@ -373,9 +374,18 @@ static bool is_of_another_view(const Key *key, const Scene *scene)
            !(strlen(shown) == length && strncmp(shown, part, length) == 0);
 }
 
+static bool says_the_picture(const Key *key, const Scene *scene)
+{
+    const char *part;
+    const size_t own = part_of_view(key, &part);
+    const ViewKind *shown = view_find(scene->view.kind);
+    return IS_AMONG(of_view, key->path) || (own > 0 && IS_AMONG(of_each_view, part + own + 1)) ||
+           (strcmp(key->path, RADIUS) == 0 && shown && (shown->curves & VIEW_SIZE));
+}
+
 /* Fills in the heading of a key: "solver.step.dt" is in "Solver". The shown view's own keys are in "View" or
    "More of the view", an overlay's under the overlay's name. */
-static void group_of(const Key *key, char name[NAME_LENGTH])
+static void group_of(const Key *key, const Scene *scene, char name[NAME_LENGTH])
 {
     const char *part;
     const size_t length = strcspn(key->path, ".["), own = part_of_view(key, &part);
@@ -386,10 +396,7 @@ static void group_of(const Key *key, char name[NAME_LENGTH])
     else if (IS_AMONG(of_play, key->path))
         snprintf(name, NAME_LENGTH, "%s", PLAY_GROUP);
     else if (of_a_view)
-        snprintf(name, NAME_LENGTH, "%s",
-                 IS_AMONG(of_view, key->path) || (own > 0 && IS_AMONG(of_each_view, part + own + 1))
-                     ? VIEW_GROUP
-                     : MORE_GROUP);
+        snprintf(name, NAME_LENGTH, "%s", says_the_picture(key, scene) ? VIEW_GROUP : MORE_GROUP);
     else if (!key->path[length])
         snprintf(name, NAME_LENGTH, "World");
     else if (own > 0 && !is_a_view(part, own))
@@ -447,7 +454,7 @@ static bool is_shown(const Key *key, const PanelData *data)
 static bool is_in(const Key *key, const char *group, const PanelData *data)
 {
     char own[NAME_LENGTH];
-    group_of(key, own);
+    group_of(key, data->scene, own);
     return strcmp(own, group) == 0 && is_shown(key, data);
 }
 
@@ -552,7 +559,7 @@ void panel_scene(Ui *ui, const PanelData *data, const Scene *start, PanelEvents 
     for (int i = 0; i < count; i++) {
         if (!is_shown(&keys[i], data))
             continue;
-        group_of(&keys[i], group);
+        group_of(&keys[i], data->scene, group);
         if (groups_add(&groups, group) && ui_section(ui, group, false))
             draw_group(ui, group, data, start, events);
     }
