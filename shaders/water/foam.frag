@@ -20,6 +20,14 @@ float patch_cover(float far, float behind)
     return inside * inside;
 }
 
+// 0 on the panes of the box, where water below its surface would be white; 1 from half a spacing inside on.
+float off_panes(vec2 pixel, float surface)
+{
+    vec3 at = (ray_of_ndc(ndc_of_pixel(pixel)) * surface - box_to_eye[3].xyz) * mat3(box_to_eye);
+    vec2 inside = 0.5 * box_size.xz - abs(at.xz);
+    return smoothstep(0.1, 0.5, min(inside.x, inside.y) / particle_spacing);
+}
+
 float bubble_cover(float far, float behind)
 {
     return exp2(-2.2 * behind / (beside * particle_spacing)) * (1.0 - smoothstep(0.5, 1.0, far));
@@ -31,7 +39,7 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float far = min(dot(from, from), 1.0), surface = near_plane / max(texelFetch(surface_depth, pixel, 0).x, 1e-30);
     float behind = min(abs(surface - bubble.x), 10.0 * particle_spacing);
-    float cover = light.a * (bubble.z > 0.0 ? patch_cover(far, behind) : bubble_cover(far, behind));
+    float cover = light.a * (bubble.z > 0.0 ? patch_cover(far, behind) * off_panes(gl_FragCoord.xy, surface) : bubble_cover(far, behind));
 #ifdef SOLIDS
     cover *= step(bubble.x, near_plane / max(texelFetch(solid_depth, pixel, 0).x, 1e-30) + bubble.y);
 #endif

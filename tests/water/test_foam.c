@@ -217,6 +217,19 @@ static void foam_lives_and_drifts(void **state)
     free(scene.particles);
 }
 
+/* Seen level through the front pane: foam is on the water, not on the pane below its edge. */
+static void panes_have_no_patches(void **state)
+{
+    (void)state;
+    SolidsScene scene = tank("volume");
+    scene.def.camera = (CameraDef){{0, 0.2, 3}, {0, 0.2, 0}, 24};
+    fill(&scene, 2, false);
+    const Difference pane = foam_of(&scene, 0.2, 0.45);
+    printf("brighter by %.3g on the pane\n", pane.brighter);
+    assert_true(pane.brighter < 0.05);
+    free(scene.particles);
+}
+
 /* A wall before the tank, a hand thick; afloat, since others end at the box. */
 static void solids_hide_foam(void **state)
 {
@@ -239,6 +252,7 @@ int main(void)
         cmocka_unit_test_teardown(there_is_none, no_gl_errors),
         cmocka_unit_test_teardown(bubbles_go_by_ids, no_gl_errors),
         cmocka_unit_test_teardown(foam_lives_and_drifts, no_gl_errors),
+        cmocka_unit_test_teardown(panes_have_no_patches, no_gl_errors),
         cmocka_unit_test_teardown(solids_hide_foam, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
