@@ -308,6 +308,7 @@ void frame_make(Frame *frame, const Subject *subject, const ParticleBuffers *par
     make_bounds(frame, particles->box_size);
     make_floor(frame, particles->box_size, &particles->box, particles->time);
     make_ranges(frame, particles);
+    frame->colors.fluids_known = particles->fluid.buffer != 0;
     frame->colors.by_fluid =
         view_color_by(def) == SCALAR_FLUID || !particles->scalar[view_color_by(def)].buffer;
 }

@@ -425,6 +425,7 @@ typedef struct FrameColors {
     double range[2];         /* in the scalar's unit; range[0] < range[1] */
     bool beyond[2];          /* the automatic range excludes values below, above */
     bool by_fluid;           /* particles have the fluids' own colours */
+    bool fluids_known;       /* the state says which fluid each particle is of */
     bool none;               /* no colour depends on `range`: the legend leaves the range out */
     int part_count;
     FramePart parts[FRAME_PARTS_MAX];

@@ -218,7 +218,7 @@ static void test_legend_is_drawn(void **state)
     }
 }
 
-/* Nothing of the legend, lines of curves included, is left of its room or below. */
+/* The whole legend, lines of curves included, is in the room for legends. */
 static void test_legend_stays_in_its_room(void **state)
 {
     (void)state;

@@ -444,6 +444,32 @@ static void fluids_have_their_colours(void **state)
     free_scene(&scene);
 }
 
+/* Without the particles' fluids the slice shows the amount of fluid, and the legend too. */
+static void fluids_that_are_not_known_are_an_amount(void **state)
+{
+    (void)state;
+    Error error = {0};
+    SliceScene scene = wild_scene(0.08, (double[3]){0, 0, 0}, (double[3]){0, 0, 1});
+    const WorldDef world = bare_world();
+    ViewDef def = flat_view();
+    def.color_by = SCALAR_FLUID;
+    Renderer *renderer = renderer_create(&def, &world, WIDE, HIGH, &error);
+    assert_non_null(renderer);
+    for (int known = 0; known < 2; known++) {
+        ParticleBuffers buffers;
+        double range[2];
+        Upload *upload = upload_particles(scene.particles, &scene.state, &buffers);
+        if (!known)
+            buffers.fluid.buffer = 0;
+        renderer_draw(renderer, &buffers, NULL);
+        renderer_range(renderer, range);
+        assert_true((range[1] == 1.25) == !known); /* of the amount */
+        upload_destroy(upload);
+    }
+    renderer_destroy(renderer);
+    free_scene(&scene);
+}
+
 /* By a scalar, the coloured scalar or a second scalar, low values are invisible and high values
    unchanged. */
 static void opacity_goes_by_a_scalar(void **state)
@@ -838,6 +864,7 @@ int main(void)
         cmocka_unit_test_teardown(what_is_no_number_stays_where_it_is, no_gl_errors),
         cmocka_unit_test_teardown(a_pixel_has_the_colour_of_its_value, no_gl_errors),
         cmocka_unit_test_teardown(fluids_have_their_colours, no_gl_errors),
+        cmocka_unit_test_teardown(fluids_that_are_not_known_are_an_amount, no_gl_errors),
         cmocka_unit_test_teardown(opacity_goes_by_a_scalar, no_gl_errors),
         cmocka_unit_test_teardown(it_plays_in_pictures, no_gl_errors),
         cmocka_unit_test_teardown(half_of_the_particles_is_left, no_gl_errors),

@@ -457,7 +457,9 @@ static void show(const ViewDef *def, Frame *frame)
 {
     const SliceDef *own = slice_def(def);
     frame->flat = own->show == SLICE_FLAT;
-    if (!frame->colors.by_fluid || (view_color_by(def) == SCALAR_FLUID && frame->world->fluid_count > 1))
+    const bool tints = view_color_by(def) == SCALAR_FLUID && frame->world->fluid_count > 1 &&
+                       frame->colors.fluids_known; /* as slice_tints_shown */
+    if (!frame->colors.by_fluid || tints)
         return;
     frame->colors.by_fluid =
         own->particles != SLICE_ALONE && !frame->flat; /* balls have the fluids' colours */
