@@ -248,11 +248,12 @@ static void test_legend_stays_in_its_room(void **state)
     }
     int written = 0;
     for (int i = 0; i < LONG * HIGH; i++) {
-        const bool time = i / LONG > HIGH - 40 && i % LONG < 80;
-        const bool inside = i % LONG >= LONG * (1 - room.right) && i / LONG < HIGH * room.top;
+        const int x = i % LONG, y = i / LONG;
+        const bool time = y > HIGH - 40 && x < 80;
+        const bool inside = x >= LONG * (1 - room.right) && y < HIGH * room.top;
         const bool same = memcmp(&rgb[0][3 * i], &rgb[1][3 * i], 3) == 0;
         assert_true(same || inside || time);
-        written += !same && i / LONG > (1 + 15.5) * legend_text_pixels(HIGH);
+        written += !same && y > (1 + 15.5) * legend_text_pixels(HIGH);
     }
     assert_true(written > 400 && room.top < 0.9);
 }

@@ -67,7 +67,8 @@ static void test_slice_ends_at_the_box(void **state)
     const double pixel = 2 * 5 * tan(15 * 3.14159265358979 / 180) / SIZE;
     int covered = 0;
     for (int i = 0; i < SIZE * SIZE; i++) {
-        const double x = (i % SIZE + 0.5 - SIZE / 2.0) * pixel, y = (i / SIZE + 0.5 - SIZE / 2.0) * pixel;
+        const int column = i % SIZE, row = i / SIZE;
+        const double x = (column + 0.5 - SIZE / 2.0) * pixel, y = (row + 0.5 - SIZE / 2.0) * pixel;
         covered += depth[i] > 0;
         assert_true(depth[i] == 0 || (fabs(x) < 1 && fabs(y) < 0.5));
     }

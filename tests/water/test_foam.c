@@ -195,8 +195,10 @@ static void foam_lives_and_drifts(void **state)
     Renderer *renderer = renderer_of(&scene);
     draw_with(renderer, &scene);
     fill(&scene, 0, false);
-    for (int n = 0; n < LONG * DEEP * LAYERS; n++)
-        ids[n] = (float)(n / LONG * LONG + LONG - 1 - n % LONG);
+    for (int n = 0; n < LONG * DEEP * LAYERS; n++) {
+        const int row = n / LONG, mirrored = LONG - 1 - n % LONG;
+        ids[n] = (float)(row * LONG + mirrored);
+    }
     Image calm = picture_of(&scene);
     const double begin = scene.state.time;
     double brighter[3];
