@@ -227,8 +227,6 @@ static bool warm_up(BenchRun *stand, BenchResult *result, Error *error)
     gl_timer_frame(stand->timer, &unused);
     for (int f = 1; ok && f < WARM_UP_FRAMES; f++)
         ok = stand->timer ? counted_frame(stand, result, error) : frame(stand, &clock, error);
-    if (stand->timer)
-        gl_calls_end();
     while (gl_timer_drain(stand->timer, &unused))
         continue;
     return ok;

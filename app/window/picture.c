@@ -105,7 +105,6 @@ bool picture_start(PlayPicture *picture, const PlayScene *open, Error *error)
 void picture_end(PlayPicture *picture)
 {
     text_destroy(picture->text);
-    gl_calls_end();
     gl_timer_destroy(picture->timer);
     gl_timer_destroy(picture->pauses);
     panels_destroy(picture->panels);

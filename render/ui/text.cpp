@@ -3,6 +3,10 @@
 
 #include "render/ui/ui_private.h"
 
+extern "C" {
+#include "sim/gpu/gl_known.h"
+}
+
 #include <backends/imgui_impl_opengl3.h>
 #include <cstdio>
 #include <new>
@@ -54,6 +58,14 @@ bool start_drawing(Error *error)
 {
     return ImGui_ImplOpenGL3_Init("#version 450") ||
            error_set(error, "Dear ImGui does not take this OpenGL context; 4.5 core is needed");
+}
+
+// ImGui's backend has its own pointers to the driver's functions.
+void draw_lists()
+{
+    gl_calls_foreign();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    gl_calls_foreign();
 }
 
 struct Text {
@@ -122,7 +134,7 @@ void text_end(Text *text)
     ImGui::Render();
     ImGui::GetDrawData()->DisplayPos = ImVec2(-text->origin.x, -text->origin.y);
     glDisable(GL_FRAMEBUFFER_SRGB);
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    draw_lists();
     glEnable(GL_FRAMEBUFFER_SRGB);
     text->list = nullptr;
 }

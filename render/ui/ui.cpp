@@ -296,7 +296,7 @@ void ui_end(Ui *ui)
         find_places(ui);
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, ui->framebuffer);
         clear(ui);
-        ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+        draw_lists();
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)target);
         ui->building = false;
     }

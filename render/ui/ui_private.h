@@ -41,6 +41,9 @@ ImFont *add_font(const char *file, float pixels, const ImFontConfig *config, Err
 // Returns false with the error if ImGui does not take the OpenGL context.
 bool start_drawing(Error *error);
 
+// Draws what the current ImGui context has rendered.
+void draw_lists();
+
 inline ImU32 imgui_color(uint32_t rgba)
 {
     return IM_COL32(rgba >> 24, rgba >> 16 & 255, rgba >> 8 & 255, rgba & 255);

@@ -40,15 +40,15 @@ typedef struct GlCalls {
     uint64_t bytes; /* written into buffers by the program, and copied between buffers */
 } GlCalls;
 
-/* The calls since the first look; counts from the first look on. Counts nothing without a context of
-   libEGL. */
+/* The calls since the first context. Calls without effect are left out; a barrier waits for the next call
+   beyond settings. Without a context of libEGL no call is left out or counted. */
 GlCalls gl_calls(void);
 
 /* The calls since the look `before`. */
 GlCalls gl_calls_since(const GlCalls *before);
 
-/* Ends counting. */
-void gl_calls_end(void);
+/* For gl_context_begin: the context is unknown. */
+void gl_calls_begin(void);
 
 /* The GPU's time in each program, by timestamps around each dispatch and draw. */
 typedef struct GlProgramTime {
@@ -60,6 +60,10 @@ typedef struct GlProgramTime {
 
 /* Measures from now on, in the current context. Without memory, runs are left out. */
 void gl_programs_begin(void);
+
+/* Around each dispatch and draw, for gl_calls.c. */
+bool gl_programs_run(void);
+void gl_programs_ran(bool measured);
 
 /* Ends the measurement; waits for the GPU. Returns the number of programs in `times`, at most `most`; the
    greatest sums come first. */

@@ -1,4 +1,7 @@
+/* Functions between slosh and the driver: count calls, leave out calls without effect (sim/gpu/gl_known.h),
+   and measure programs (gl_programs.c). */
 #include "sim/gpu/gl.h"
+#include "sim/gpu/gl_known.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -19,7 +22,7 @@ static struct {
     GLuint pack; /* buffer that takes the pixels that are read; 0: the program waits for the pixels */
 } counted;
 
-static bool counting;
+static GLbitfield barrier; /* put off */
 
 static CallKind sent(GLsizeiptr size)
 {
@@ -27,11 +30,11 @@ static CallKind sent(GLsizeiptr size)
     return CALL_OTHER;
 }
 
-static CallKind bound(GLenum target, GLuint buffer)
+static bool bound(GLenum target, GLuint buffer)
 {
     if (target == GL_PIXEL_PACK_BUFFER)
         counted.pack = buffer;
-    return CALL_OTHER;
+    return known_target(target, buffer);
 }
 
 static CallKind pixels_read(void)
@@ -45,34 +48,76 @@ static CallKind waited(GLuint64 nanoseconds)
     return nanoseconds > 0 ? CALL_WAIT : CALL_QUESTION;
 }
 
+static bool put_off(GLbitfield bits)
+{
+    barrier |= bits;
+    return true;
+}
+
+static void before(CallKind kind);
+
 #define GL_CALL(kind, type, name, parameters, arguments)                                                     \
-    static type(GLAPIENTRY *real_##name) parameters;                                                         \
-    static type(GLAPIENTRY *other_##name) parameters;                                                        \
-    static type GLAPIENTRY counted_##name parameters                                                         \
+    static type(GLAPIENTRY *driver_##name) parameters;                                                       \
+    static type GLAPIENTRY our_##name parameters                                                             \
     {                                                                                                        \
-        counted.calls[kind]++;                                                                               \
-        return real_##name arguments;                                                                        \
+        before(kind);                                                                                        \
+        return driver_##name arguments;                                                                      \
+    }
+#define GL_SETTING(known, type, name, parameters, arguments)                                                 \
+    static type(GLAPIENTRY *driver_##name) parameters;                                                       \
+    static type GLAPIENTRY our_##name parameters                                                             \
+    {                                                                                                        \
+        if (known)                                                                                           \
+            return;                                                                                          \
+        counted.calls[CALL_OTHER]++;                                                                         \
+        driver_##name arguments;                                                                             \
+    }
+#define GL_RUN(kind, type, name, parameters, arguments)                                                      \
+    static type(GLAPIENTRY *driver_##name) parameters;                                                       \
+    static type GLAPIENTRY our_##name parameters                                                             \
+    {                                                                                                        \
+        before(kind);                                                                                        \
+        const bool measured = gl_programs_run();                                                             \
+        driver_##name arguments;                                                                             \
+        gl_programs_ran(measured);                                                                           \
     }
 #include "sim/gpu/gl_call_rows.h"
 #undef GL_CALL
+
+static void before(CallKind kind)
+{
+    if (barrier) {
+        driver_glMemoryBarrier(barrier);
+        counted.calls[CALL_BARRIER]++;
+        barrier = 0;
+    }
+    counted.calls[kind]++;
+}
 
 /* Libepoxy calls through pointers; a pointer may not know the function yet. */
 static void take_pointers(void)
 {
 #define GL_CALL(kind, type, name, parameters, arguments)                                                     \
-    real_##name = (__typeof__(real_##name))eglGetProcAddress(#name);                                         \
-    other_##name = epoxy_##name;                                                                             \
-    if (real_##name)                                                                                         \
-        epoxy_##name = counted_##name;
+    driver_##name = (__typeof__(driver_##name))eglGetProcAddress(#name);                                     \
+    if (driver_##name)                                                                                       \
+        epoxy_##name = our_##name;
 #include "sim/gpu/gl_call_rows.h"
 #undef GL_CALL
 }
 
-static void give_pointers_back(void)
+void gl_calls_begin(void)
 {
-#define GL_CALL(kind, type, name, parameters, arguments) epoxy_##name = other_##name;
-#include "sim/gpu/gl_call_rows.h"
-#undef GL_CALL
+    known_forget(true);
+    barrier = 0;
+    if (!driver_glMemoryBarrier && epoxy_has_egl() && eglGetCurrentContext() != EGL_NO_CONTEXT)
+        take_pointers();
+}
+
+void gl_calls_foreign(void)
+{
+    if (barrier)
+        before(CALL_OTHER);
+    known_forget(false);
 }
 
 GlCalls gl_calls(void)
@@ -87,27 +132,18 @@ GlCalls gl_calls(void)
                    .bytes = counted.bytes};
     for (int k = 0; k < CALL_KINDS; k++)
         all.calls += of[k];
-    if (!counting && (counting = epoxy_has_egl() && eglGetCurrentContext() != EGL_NO_CONTEXT))
-        take_pointers();
     return all;
 }
 
-GlCalls gl_calls_since(const GlCalls *before)
+GlCalls gl_calls_since(const GlCalls *before_them)
 {
     const GlCalls now = gl_calls();
-    return (GlCalls){.calls = now.calls - before->calls,
-                     .dispatches = now.dispatches - before->dispatches,
-                     .draws = now.draws - before->draws,
-                     .barriers = now.barriers - before->barriers,
-                     .questions = now.questions - before->questions,
-                     .waits = now.waits - before->waits,
-                     .readbacks = now.readbacks - before->readbacks,
-                     .bytes = now.bytes - before->bytes};
-}
-
-void gl_calls_end(void)
-{
-    if (counting)
-        give_pointers_back();
-    counting = false;
+    return (GlCalls){.calls = now.calls - before_them->calls,
+                     .dispatches = now.dispatches - before_them->dispatches,
+                     .draws = now.draws - before_them->draws,
+                     .barriers = now.barriers - before_them->barriers,
+                     .questions = now.questions - before_them->questions,
+                     .waits = now.waits - before_them->waits,
+                     .readbacks = now.readbacks - before_them->readbacks,
+                     .bytes = now.bytes - before_them->bytes};
 }

@@ -56,6 +56,7 @@ int gl_errors_take(unsigned code)
 
 void gl_context_begin(void)
 {
+    gl_calls_begin();
     if (epoxy_has_gl_extension("GL_KHR_parallel_shader_compile"))
         glMaxShaderCompilerThreadsKHR(UINT32_MAX);
     else if (epoxy_has_gl_extension("GL_ARB_parallel_shader_compile"))

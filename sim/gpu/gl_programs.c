@@ -1,7 +1,6 @@
 /* Which program takes the GPU's time. */
 #include "sim/gpu/gl.h"
 
-#include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,6 +13,7 @@ typedef struct Run {
 static struct {
     Run *of;
     size_t count, capacity;
+    bool on;
 } runs;
 
 static Run *run_add(void)
@@ -29,10 +29,10 @@ static Run *run_add(void)
     return &runs.of[runs.count++];
 }
 
-static bool run_begin(void)
+bool gl_programs_run(void)
 {
     GLint program = 0;
-    Run *run = run_add();
+    Run *run = runs.on ? run_add() : NULL;
     if (!run)
         return false;
     glGetIntegerv(GL_CURRENT_PROGRAM, &program);
@@ -42,40 +42,15 @@ static bool run_begin(void)
     return true;
 }
 
-static void run_end(bool begun)
+void gl_programs_ran(bool measured)
 {
-    if (begun)
+    if (measured)
         glQueryCounter(runs.of[runs.count - 1].query[1], GL_TIMESTAMP);
 }
 
-#define GL_CALL(kind, type, name, parameters, arguments)
-#define GL_RUN(kind, type, name, parameters, arguments)                                                      \
-    static type(GLAPIENTRY *real_##name) parameters;                                                         \
-    static type(GLAPIENTRY *other_##name) parameters;                                                        \
-    static type GLAPIENTRY timed_##name parameters                                                           \
-    {                                                                                                        \
-        const bool begun = run_begin();                                                                      \
-        real_##name arguments;                                                                               \
-        run_end(begun);                                                                                      \
-    }
-#include "sim/gpu/gl_call_rows.h"
-
-/* As in gl_calls.c: libepoxy's pointers may not know the function yet. */
 void gl_programs_begin(void)
 {
-#define GL_RUN(kind, type, name, parameters, arguments)                                                      \
-    real_##name = (__typeof__(real_##name))eglGetProcAddress(#name);                                         \
-    other_##name = epoxy_##name;                                                                             \
-    if (real_##name)                                                                                         \
-        epoxy_##name = timed_##name;
-#include "sim/gpu/gl_call_rows.h"
-}
-
-static void give_pointers_back(void)
-{
-#define GL_RUN(kind, type, name, parameters, arguments) epoxy_##name = other_##name;
-#include "sim/gpu/gl_call_rows.h"
-#undef GL_CALL
+    runs.on = true;
 }
 
 /* The row of the program's label; NULL: no room is left. */
@@ -106,7 +81,7 @@ size_t gl_programs_end(GlProgramTime *times, size_t most)
 {
     GLuint64 at[2], last = 0;
     size_t count = 0;
-    give_pointers_back();
+    runs.on = false;
     for (size_t i = 0; i < runs.count; i++) {
         const Run *run = &runs.of[i];
         for (int k = 0; k < 2; k++)

@@ -17,6 +17,20 @@ static inline int compare_setup(void **state)
     return 0;
 }
 
+/* Fluid in the half of a box of 0.8 m, with the sentinel. */
+static inline WorldDef pool_on(const char *backend, const char *method)
+{
+    WorldDef def = fixture_def(0.8, 0.6, 0.5);
+    def.sound_speed = 20;
+    def.dt = 0.0005;
+    def.retries = 3;
+    def.reproducible = false;
+    snprintf(def.backend, sizeof def.backend, "%s", backend);
+    snprintf(def.method, sizeof def.method, "%s", method);
+    fixture_block(&def, 0, -0.4, 0, -0.25, 0.2, 0.3, 0.25);
+    return def;
+}
+
 static inline World *world_on(WorldDef def, const char *backend)
 {
     snprintf(def.backend, sizeof def.backend, "%s", backend);

@@ -1,9 +1,8 @@
 /* Inputs of a draw or dispatch must be bound: with missing bindings software drivers read zeros, or a
-   different block. draw_check_install checks before each call; complaints are printed and counted. */
+   different block. draw_check_set checks before each call; complaints are printed and counted. */
 #ifndef SLOSH_DRAW_CHECK_H
 #define SLOSH_DRAW_CHECK_H
 
-#include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
 #include <stdbool.h>
@@ -255,13 +254,13 @@ static GLuint APIENTRY draw_checked_glCreateProgram(void)
     return program;
 }
 
-/* The program's calls go through libepoxy's pointers; before the first call a pointer is not the
-   driver's. */
-static inline void draw_check_install(void)
+/* The program's calls go through libepoxy's pointers. Without checks the calls are the program's own. */
+static inline void draw_check_set(bool checks)
 {
 #define PUT(name)                                                                                            \
-    draw_check_##name = (__typeof__(draw_check_##name))eglGetProcAddress(#name);                             \
-    epoxy_##name = draw_checked_##name
+    if (!draw_check_##name)                                                                                  \
+        draw_check_##name = epoxy_##name;                                                                    \
+    epoxy_##name = checks ? draw_checked_##name : draw_check_##name
     PUT(glDispatchCompute);
     PUT(glDrawArrays);
     PUT(glDrawArraysInstanced);

@@ -24,10 +24,11 @@ static void count_step(const char *label, const WorldDef *def, Bounds most)
     four.dt *= SUBSTEPS;
     World *world = fixture_world(&four);
     fixture_step(world, 1);
+    draw_check_set(false);
     const GlCalls before = gl_calls();
     const bool good = world_step(world, NULL, &error);
     const GlCalls of = gl_calls_since(&before);
-    gl_calls_end();
+    draw_check_set(true);
     assert_true(good);
     printf(
         "%s: %.1f calls a step: %.1f dispatches, %.1f draws, %.1f barriers, %.1f questions; %.0f bytes; %d waits "
@@ -45,44 +46,31 @@ static void count_step(const char *label, const WorldDef *def, Bounds most)
     world_destroy(world);
 }
 
-static WorldDef pool_def(const char *backend, const char *method)
-{
-    WorldDef def = fixture_def(0.8, 0.6, 0.5);
-    def.sound_speed = 20;
-    def.dt = 0.0005;
-    def.retries = 3;
-    def.reproducible = false;
-    snprintf(def.backend, sizeof def.backend, "%s", backend);
-    snprintf(def.method, sizeof def.method, "%s", method);
-    fixture_block(&def, 0, -0.4, 0, -0.25, 0.2, 0.3, 0.25);
-    return def;
-}
-
 static void a_step_makes_so_many_calls(void **state)
 {
     (void)state;
-    WorldDef def = pool_def("compute", "mueller");
-    count_step("compute, mueller", &def, (Bounds){10, 0, 65, 1});
+    WorldDef def = pool_on("compute", "mueller");
+    count_step("compute, mueller", &def, (Bounds){10, 0, 55, 1});
     def.reproducible = true;
-    count_step("compute, mueller, reproducible", &def, (Bounds){11, 0, 70, 1});
-    def = pool_def("compute", "wcsph");
-    count_step("compute, wcsph", &def, (Bounds){12, 0, 77, 1});
+    count_step("compute, mueller, reproducible", &def, (Bounds){11, 0, 60, 1});
+    def = pool_on("compute", "wcsph");
+    count_step("compute, wcsph", &def, (Bounds){12, 0, 67, 1});
     wcsph_def(&def)->delta_sph = wcsph_def(&def)->shifting = 0.1;
-    count_step("compute, wcsph, delta_sph, shifting", &def, (Bounds){14, 0, 88, 1});
+    count_step("compute, wcsph, delta_sph, shifting", &def, (Bounds){14, 0, 77, 1});
     /* A wait each solver and step: it asks at once for as many iterations as the step before had, and more.
      */
-    def = pool_def("compute", "dfsph");
+    def = pool_on("compute", "dfsph");
     def.dt = 0.002;
     dfsph_def(&def)->iterations = 1;
-    count_step("compute, dfsph, one iteration each", &def, (Bounds){31, 0, 190, 9});
+    count_step("compute, dfsph, one iteration each", &def, (Bounds){31, 0, 155, 9});
     dfsph_def(&def)->iterations = 100;
     dfsph_def(&def)->tolerance = dfsph_def(&def)->divergence_tolerance = 1e-6;
-    count_step("compute, dfsph", &def, (Bounds){150, 0, 900, 10});
-    def = pool_def("compute", "pbf");
+    count_step("compute, dfsph", &def, (Bounds){50, 0, 220, 10});
+    def = pool_on("compute", "pbf");
     def.dt = 1.0 / 60;
-    count_step("compute, pbf", &def, (Bounds){62, 0, 350, 6});
-    def = pool_def("fragment", "mueller");
-    count_step("fragment, mueller", &def, (Bounds){44, 43, 620, 1}); /* the energy sums among them */
+    count_step("compute, pbf", &def, (Bounds){45, 0, 190, 6});
+    def = pool_on("fragment", "mueller");
+    count_step("fragment, mueller", &def, (Bounds){44, 43, 370, 1}); /* the energy sums among them */
 }
 
 /* ---- guesses of solvers ---- */
@@ -90,7 +78,7 @@ static void a_step_makes_so_many_calls(void **state)
 /* A pool with a jet, a drain, a moving box and a floating solid. */
 static WorldDef busy_def(const char *method)
 {
-    WorldDef def = pool_def("compute", method);
+    WorldDef def = pool_on("compute", method);
     def.reproducible = true;
     def.dt = 0.01;
     def.most = 3000;
@@ -152,7 +140,7 @@ static void a_wrong_guess_leaves_no_trace(void **state)
 static void many_groups_sum_as_the_cpu(void **state)
 {
     (void)state;
-    WorldDef def = pool_def("compute", "dfsph");
+    WorldDef def = pool_on("compute", "dfsph");
     def.spacing = 0.025;
     def.dt = 0.002;
     def.most = 100000;

@@ -340,7 +340,6 @@ static void check_waits(const WorldDef *def)
     const GlCalls before = gl_calls();
     substeps(world, STEPS);
     const GlCalls of = gl_calls_since(&before);
-    gl_calls_end();
     assert_int_equal(of.readbacks, 0);
     assert_in_range(of.waits, 1, STEPS);
     world_destroy(world);

@@ -8,7 +8,6 @@
 #include "sim/methods/wcsph/wcsph.h"
 #include "sim/step/world.h"
 
-#include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <limits.h>
 
@@ -65,8 +64,8 @@ static void APIENTRY limited_integer64(GLenum name, GLint64 *value)
 /* Limits the size reported by the driver; 0: the driver's value. */
 static void limit(GLenum name, GLint value)
 {
-    get_integer = (PFNGLGETINTEGERVPROC)eglGetProcAddress("glGetIntegerv");
-    get_integer64 = (PFNGLGETINTEGER64VPROC)eglGetProcAddress("glGetInteger64v");
+    get_integer = get_integer ? get_integer : epoxy_glGetIntegerv;
+    get_integer64 = get_integer64 ? get_integer64 : epoxy_glGetInteger64v;
     epoxy_glGetIntegerv = limited_integer;
     epoxy_glGetInteger64v = limited_integer64;
     limited = name;
@@ -102,15 +101,14 @@ static void what_fits_is_found_without_computing(void **state)
     WorldDef def = fixture_def(1, 1.2, 1);
     snprintf(def.backend, sizeof def.backend, "compute");
     fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 1, 0.5);
-    dispatch = (PFNGLDISPATCHCOMPUTEPROC)eglGetProcAddress("glDispatchCompute");
-    PFNGLDISPATCHCOMPUTEPROC before = epoxy_glDispatchCompute;
+    dispatch = epoxy_glDispatchCompute;
     epoxy_glDispatchCompute = counted_dispatch;
     assert_true(world_fits(&def, &error));
     assert_int_equal(dispatched, 0);
     World *world = world_create(&def, &error);
     assert_true(world && dispatched > 0);
     world_destroy(world);
-    epoxy_glDispatchCompute = before;
+    epoxy_glDispatchCompute = dispatch;
 }
 
 /* 1,000 particles of 16 bytes, with shifting of 32. */
@@ -264,9 +262,9 @@ static GLenum APIENTRY limited_error(void)
 /* From now on the driver has memory for so many textures, and buffers of at least a number a particle. */
 static void limit_storage(int buffers)
 {
-    storage = (PFNGLNAMEDBUFFERSTORAGEPROC)eglGetProcAddress("glNamedBufferStorage");
-    texture_storage = (PFNGLTEXTURESTORAGE2DPROC)eglGetProcAddress("glTextureStorage2D");
-    get_error = (PFNGLGETERRORPROC)eglGetProcAddress("glGetError");
+    storage = storage ? storage : epoxy_glNamedBufferStorage;
+    texture_storage = texture_storage ? texture_storage : epoxy_glTextureStorage2D;
+    get_error = get_error ? get_error : epoxy_glGetError;
     epoxy_glTextureStorage2D = limited_texture;
     epoxy_glNamedBufferStorage = limited_storage;
     epoxy_glGetError = limited_error;

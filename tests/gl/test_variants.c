@@ -21,10 +21,9 @@
 #include "sim/methods/mueller/mueller.h"
 #include "sim/methods/wcsph/wcsph.h"
 
-#include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
-/* The program calls through these pointers; libepoxy's pointers are invalid before the first call. */
+/* The program calls through these pointers. */
 #define ENTRIES(X)                                                                                           \
     X(glCompileShader)                                                                                       \
     X(glGetShaderiv)                                                                                         \
@@ -318,7 +317,7 @@ static void APIENTRY note_clear_texture(GLuint texture, GLint level, GLenum form
 
 static void watch_entries(void)
 {
-#define X(name) real_##name = (__typeof__(real_##name))eglGetProcAddress(#name);
+#define X(name) real_##name = epoxy_##name;
     ENTRIES(X)
 #undef X
     epoxy_glCompileShader = maybe_compile;

@@ -47,10 +47,12 @@ static void count_frame(World *world, const char *label, int more, Count *sum)
     const ComputeSolves *solves = &((const Compute *)world->state)->solves;
     const int right = solves->right;
     const bool guessed = right >= COMPUTE_GUESS_AFTER + solves->needed;
+    draw_check_set(false);
     const GlCalls before = gl_calls();
     if (!world_step(world, NULL, &error))
         fail_msg("%s", error.message);
     const GlCalls of = gl_calls_since(&before);
+    draw_check_set(true);
     const bool looks = world->energy.time != looked, wrong = solves->right < right;
     const bool iterates = world->method->solvers[0].name || world->constants.implicit.on;
     const int steps = (int)(world->step - step);
@@ -78,7 +80,6 @@ static void count_frames(World *world, const char *label, int warm, int more, Co
     fixture_step(world, warm);
     while (count->frames < FRAMES)
         count_frame(world, label, more, count);
-    gl_calls_end();
     printf(
         "%s, %s: %.1f calls a frame, %.1f dispatches, %.1f waits, %d read-backs; of %d frames %d with a look at "
         "the energy, %d guesses, %d wrong\n",
@@ -119,19 +120,6 @@ static void a_frame_waits_once(void **state)
 }
 
 /* ---- every method with every term and kind of solid and flow ---- */
-
-static WorldDef pool_def(const char *method)
-{
-    WorldDef def = fixture_def(0.8, 0.6, 0.5);
-    def.sound_speed = 20;
-    def.dt = 0.0005;
-    def.retries = 3;
-    def.reproducible = false;
-    snprintf(def.backend, sizeof def.backend, "compute");
-    snprintf(def.method, sizeof def.method, "%s", method);
-    fixture_block(&def, 0, -0.4, 0, -0.25, 0.2, 0.3, 0.25);
-    return def;
-}
 
 static void plain(WorldDef *def)
 {
@@ -261,7 +249,7 @@ static void a_step_waits_once(void **state)
     int right = 0, all = 0;
     for (int m = 0; m < 4; m++)
         for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
-            WorldDef def = pool_def(fixture_method_names[m]);
+            WorldDef def = pool_on("compute", fixture_method_names[m]);
             if (kinds[k].method && strcmp(kinds[k].method, def.method) != 0)
                 continue;
             kinds[k].add(&def);

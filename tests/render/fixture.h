@@ -49,7 +49,7 @@ static inline int context_setup(void **state)
     }
     gl_context_begin();
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS); /* a message belongs to the test that made the error */
-    draw_check_install();
+    draw_check_set(true);
     return 0;
 }
 

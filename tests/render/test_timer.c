@@ -36,7 +36,7 @@ static void APIENTRY finish_asked(void)
 
 static void clock_turn(void)
 {
-    finish = (PFNGLFINISHPROC)eglGetProcAddress("glFinish");
+    finish = epoxy_glFinish;
     epoxy_glFinish = finish_asked;
     turned_ms = floor(wall_ms());
     done = draw_check_draws;

@@ -14,7 +14,7 @@ class Calls(unittest.TestCase):
             for path in (ROOT / folder).rglob('*.[ch]*'):
                 if path.name != 'gl_call_rows.h':
                     called |= set(re.findall(r'\bgl[A-Z]\w+(?=\()', path.read_text(encoding='utf-8')))
-        rows = re.findall(r'^GL_(?:CALL|RUN)\(.*?, (gl\w+),', (ROOT / 'sim/gpu/gl_call_rows.h').read_text(encoding='utf-8'), re.M)
+        rows = re.findall(r'^GL_(?:CALL|RUN|SETTING)\(.*?, (gl\w+),', (ROOT / 'sim/gpu/gl_call_rows.h').read_text(encoding='utf-8'), re.M)
         self.assertEqual(rows, sorted(called))
 
     def test_a_clear_is_not_behind_a_write(self):

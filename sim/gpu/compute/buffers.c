@@ -172,7 +172,7 @@ void compute_own_move(Compute *c, unsigned order)
 {
     if (c->own.count == 0)
         return;
-    BIND(c, [ORDERS_BUFFER] = order, [OLD_OWN_BUFFER] = c->now.own, [OWN_BUFFER] = c->spare.own);
+    BIND([ORDERS_BUFFER] = order, [OLD_OWN_BUFFER] = c->now.own, [OWN_BUFFER] = c->spare.own);
     compute_run(c, COMPUTE_OWN_MOVE, c->count);
 }
 
@@ -180,7 +180,7 @@ void compute_own_gather(Compute *c, unsigned marks)
 {
     if (c->own.count == 0)
         return;
-    BIND(c, [MARKS_BUFFER] = marks, [OLD_OWN_BUFFER] = c->now.own, [OWN_BUFFER] = c->spare.own);
+    BIND([MARKS_BUFFER] = marks, [OLD_OWN_BUFFER] = c->now.own, [OWN_BUFFER] = c->spare.own);
     compute_run(c, COMPUTE_OWN_GATHER, c->count);
 }
 

@@ -17,7 +17,6 @@ enum {
     COMPUTE_GUESS_AFTER = 4, /* steps in which a guess would have been right */
     COMPUTE_ALONG = 65535,   /* work groups per row */
     COMPUTE_NAMED = 19,
-    COMPUTE_BINDINGS = 32,                    /* more than shaders/sim/bindings.h and the methods have */
     COMPUTE_BUFFERS = METHOD_BUFFERS_MAX + 4, /* of the method, and a buffer per term */
     COMPUTE_DEFINES_MAX = 4096
 };
@@ -134,14 +133,6 @@ typedef struct ComputeSolves {
     int needed;     /* further steps before the next guess: doubles with each wrong guess */
 } ComputeSolves;
 
-/* The context's bindings, to leave out repeated calls. Known within a step only: between steps, pictures and
-   other worlds bind as well. */
-typedef struct ComputeBound {
-    bool known;            /* between compute_enter and compute_leave */
-    bool blocks, boundary; /* uniform blocks of all passes; those of solids */
-    unsigned program, storage[COMPUTE_BINDINGS];
-} ComputeBound;
-
 typedef struct Compute {
     const Constants *constants;
     size_t count,
@@ -176,7 +167,6 @@ typedef struct Compute {
     ComputeForces forces;
     unsigned shown[COMPUTE_SHOWN]; /* for the views: uint or float; 0 before the first request */
     unsigned constant_block, step; /* uniform blocks */
-    ComputeBound bound;
     unsigned program[COMPUTE_PASS_COUNT];
     bool takes_dt[COMPUTE_PASS_COUNT];
     /* Bindings of buffers found by name, the method's last; -1: none. */
@@ -296,16 +286,13 @@ void compute_run(Compute *compute, ComputePass pass, size_t count);
 void compute_find_buffers(Compute *compute, ComputePass pass);
 void compute_sweep(Compute *compute, ComputePass pass, size_t count);
 
-/* Binds buffers to storage bindings 0, 1, ...; 0 leaves a binding unchanged. BIND(c, [NUMBER] = buffer, ...)
-   uses the numbers of shaders/sim/bindings.h. */
-void compute_bind(Compute *compute, const unsigned *buffers, int count);
-#define BIND(compute, ...)                                                                                   \
-    compute_bind(compute, (const unsigned[]){__VA_ARGS__},                                                   \
+/* Binds buffers to storage bindings 0, 1, ...; 0 leaves a binding unchanged. BIND([NUMBER] = buffer, ...)
+   uses the numbers of shaders/sim/bindings.h. Binds anew each time: sim/gpu/gl_known.h leaves out what is
+   bound. */
+void compute_bind(const unsigned *buffers, int count);
+#define BIND(...)                                                                                            \
+    compute_bind((const unsigned[]){__VA_ARGS__},                                                            \
                  (int)(sizeof((const unsigned[]){__VA_ARGS__}) / sizeof(unsigned)))
-
-/* Around the passes of a step. */
-void compute_enter(void *state);
-void compute_leave(void *state);
 
 /* Sets the number of particles. compute_copy_count: copies the number on the GPU to another buffer
    (`out`), or from there. */

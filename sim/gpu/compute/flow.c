@@ -54,7 +54,7 @@ static void count_flow(Compute *c, unsigned marks, size_t size, bool drains)
 {
     const GLuint program = c->program[COMPUTE_FLOW_COUNT];
     glProgramUniform3ui(program, FLOW_AT, (GLuint)(c->flow.calls - 1), (GLuint)size, drains);
-    BIND(c, [FLOW_COUNTS_BUFFER] = c->flow.counts.buffer, [MARKS_BUFFER] = marks);
+    BIND([FLOW_COUNTS_BUFFER] = c->flow.counts.buffer, [MARKS_BUFFER] = marks);
     compute_run(c, COMPUTE_FLOW_COUNT, 1);
     compute_copy_count(c, c->flow.counts.buffer, offsetof(FlowCounts, there), false);
 }
@@ -102,11 +102,11 @@ static void emit_part(Compute *c, const EmitLayer *layer)
     layer_set(c, layer);
     bind_block(c);
     compute_boundary_bind(c);
-    BIND(c, [POSITIONS_BUFFER] = c->now.position, [LAYER_BUFFER] = c->flow.layer, [STARTS_BUFFER] = c->start,
+    BIND([POSITIONS_BUFFER] = c->now.position, [LAYER_BUFFER] = c->flow.layer, [STARTS_BUFFER] = c->start,
          [MARKS_BUFFER] = c->flow.marks);
     compute_run(c, COMPUTE_EMIT_MARK, layer->count + 1);
     compute_scan(c, c->flow.marks, layer->count + 1);
-    BIND(c, [POSITIONS_BUFFER] = c->now.position, [LAYER_BUFFER] = c->flow.layer,
+    BIND([POSITIONS_BUFFER] = c->now.position, [LAYER_BUFFER] = c->flow.layer,
          [VELOCITIES_BUFFER] = c->now.velocity, [MARKS_BUFFER] = c->flow.marks, [NAMES_BUFFER] = c->now.name,
          [FLOW_COUNTS_BUFFER] = c->flow.counts.buffer, [OWN_BUFFER] = c->now.own);
     compute_run(c, COMPUTE_EMIT_ADD, layer->count);
@@ -188,11 +188,11 @@ size_t compute_drain(void *state, const Fill *regions, int count)
     drains_set(c, regions, count);
     c->flow.calls++;
     bind_block(c);
-    BIND(c, [POSITIONS_BUFFER] = c->now.position, [MARKS_BUFFER] = c->order); /* `order` is free until the
+    BIND([POSITIONS_BUFFER] = c->now.position, [MARKS_BUFFER] = c->order); /* `order` is free until the
                                                                                  next grid */
     compute_run(c, COMPUTE_DRAIN_MARK, c->count + 1);
     compute_scan(c, c->order, c->count + 1);
-    BIND(c, [MARKS_BUFFER] = c->order, [OLD_POSITIONS_BUFFER] = c->now.position,
+    BIND([MARKS_BUFFER] = c->order, [OLD_POSITIONS_BUFFER] = c->now.position,
          [OLD_VELOCITIES_BUFFER] = c->now.velocity, [OLD_NAMES_BUFFER] = c->now.name,
          [POSITIONS_BUFFER] = c->spare.position, [VELOCITIES_BUFFER] = c->spare.velocity,
          [NAMES_BUFFER] = c->spare.name);

@@ -148,28 +148,16 @@ unsigned compute_buffer(Compute *c, const char *label, size_t bytes)
     return name;
 }
 
-void compute_enter(void *state)
+static void bind(int binding, unsigned buffer)
 {
-    ((Compute *)state)->bound = (ComputeBound){.known = true};
+    if (binding >= 0 && buffer)
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, (GLuint)binding, buffer);
 }
 
-void compute_leave(void *state)
-{
-    ((Compute *)state)->bound.known = false;
-}
-
-static void bind(Compute *c, int binding, unsigned buffer)
-{
-    if (binding < 0 || !buffer || (c->bound.known && c->bound.storage[binding] == buffer))
-        return;
-    c->bound.storage[binding] = buffer;
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, (GLuint)binding, buffer);
-}
-
-void compute_bind(Compute *c, const unsigned *buffers, int count)
+void compute_bind(const unsigned *buffers, int count)
 {
     for (int k = 0; k < count; k++)
-        bind(c, k, buffers[k]);
+        bind(k, buffers[k]);
 }
 
 /* Dispatches work groups in rows: shaders/sim/constants.glsl. */
@@ -177,23 +165,6 @@ static void dispatch(size_t groups)
 {
     const size_t rows = (groups + COMPUTE_ALONG - 1) / COMPUTE_ALONG;
     glDispatchCompute((GLuint)(rows > 1 ? COMPUTE_ALONG : groups), (GLuint)rows, 1);
-}
-
-/* Sets the mark; false if the mark was set in the same step. */
-static bool unset(Compute *c, bool *set)
-{
-    const bool was = c->bound.known && *set;
-    *set = true;
-    return !was;
-}
-
-static void use(Compute *c, ComputePass pass)
-{
-    const unsigned program = c->program[pass];
-    if (c->bound.known && c->bound.program == program)
-        return;
-    c->bound.program = program;
-    glUseProgram(program);
 }
 
 static void bind_blocks(Compute *c)
@@ -204,8 +175,7 @@ static void bind_blocks(Compute *c)
                              [TERM_BLOCK - FIRST] = c->terms,
                              [WATCH_BLOCK - FIRST] = c->watch.buffer,
                              [METHOD_BLOCK - FIRST] = c->of_method};
-    if (unset(c, &c->bound.blocks))
-        glBindBuffersBase(GL_UNIFORM_BUFFER, FIRST, sizeof blocks / sizeof *blocks, blocks);
+    glBindBuffersBase(GL_UNIFORM_BUFFER, FIRST, sizeof blocks / sizeof *blocks, blocks);
 }
 
 /* Offset in SolveBlock of a solver's number of work groups; -1: the caller's number counts. */
@@ -223,7 +193,7 @@ void compute_run(Compute *c, ComputePass pass, size_t count)
     const GLintptr decided = decided_at(c, pass);
     const bool watched = pass == COMPUTE_KICK || pass == COMPUTE_DRIFT;
     bind_blocks(c);
-    use(c, pass);
+    glUseProgram(c->program[pass]);
     if (decided >= 0) {
         glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, c->solve);
         glDispatchComputeIndirect(decided);
@@ -245,13 +215,13 @@ static void run_words(Compute *c, ComputePass pass, size_t bytes, size_t from, s
 
 void compute_clear(Compute *c, unsigned buffer, size_t bytes)
 {
-    BIND(c, [CLEARED_BUFFER] = buffer);
+    BIND([CLEARED_BUFFER] = buffer);
     run_words(c, COMPUTE_CLEAR, bytes, 0, 0);
 }
 
 void compute_copy(Compute *c, unsigned from, unsigned to, size_t at, size_t bytes)
 {
-    BIND(c, [CLEARED_BUFFER] = to, [COPIED_BUFFER] = from);
+    BIND([CLEARED_BUFFER] = to, [COPIED_BUFFER] = from);
     run_words(c, COMPUTE_COPY, bytes, at, at);
 }
 
@@ -268,10 +238,8 @@ void compute_boundary_bind(Compute *c)
     const ComputeBoundary *b = &c->boundary;
     if (c->constants->solid_count == 0)
         return;
-    BIND(c, [BOUNDARY_POSITIONS_BUFFER] = b->position, [BOUNDARY_VELOCITIES_BUFFER] = b->velocity,
+    BIND([BOUNDARY_POSITIONS_BUFFER] = b->position, [BOUNDARY_VELOCITIES_BUFFER] = b->velocity,
          [BOUNDARY_STATES_BUFFER] = b->state, [BOUNDARY_STARTS_BUFFER] = b->start);
-    if (!unset(c, &c->bound.boundary))
-        return;
     glBindBufferBase(GL_UNIFORM_BUFFER, SOLID_STEPS_BLOCK, b->block);
     glBindBufferBase(GL_UNIFORM_BUFFER, EXACT_SHAPES_BLOCK, b->exact);
     meshes_bind(c);
@@ -312,7 +280,7 @@ static int binding_of(GLuint program, const char *block)
     GLint binding = -1;
     if (at != GL_INVALID_INDEX)
         glGetProgramResourceiv(program, GL_SHADER_STORAGE_BLOCK, at, 1, &what, 1, NULL, &binding);
-    assert(binding < COMPUTE_BINDINGS);
+    assert(binding <= INT8_MAX);
     return binding;
 }
 
@@ -333,9 +301,9 @@ void compute_sweep(Compute *c, ComputePass pass, size_t count)
 {
     compute_boundary_bind(c);
     for (int k = 0; k < COMPUTE_NAMED; k++)
-        bind(c, c->bindings[pass][k], *(const unsigned *)(const void *)((const char *)c + named[k].at));
+        bind(c->bindings[pass][k], *(const unsigned *)(const void *)((const char *)c + named[k].at));
     for (int k = 0; k < COMPUTE_BUFFERS; k++)
-        bind(c, c->bindings[pass][COMPUTE_NAMED + k], c->of_shaders[k]);
+        bind(c->bindings[pass][COMPUTE_NAMED + k], c->of_shaders[k]);
     compute_run(c, pass, count);
 }
 
@@ -346,8 +314,8 @@ static size_t blocks_of(size_t size)
 
 static void run_blocks(Compute *c, ComputePass pass, unsigned values, unsigned totals, size_t size)
 {
-    BIND(c, [SCAN_VALUES_STORAGE] = values, [SCAN_TOTALS_STORAGE] = totals);
-    use(c, pass);
+    BIND([SCAN_VALUES_STORAGE] = values, [SCAN_TOTALS_STORAGE] = totals);
+    glUseProgram(c->program[pass]);
     glUniform1ui(SCAN_SIZE_AT, (GLuint)size);
     dispatch(blocks_of(size));
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

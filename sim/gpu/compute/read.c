@@ -96,7 +96,7 @@ static ParticleAttribute show(Compute *c, int what)
         c->full = false;
         return (ParticleAttribute){0};
     }
-    BIND(c, [POSITIONS_BUFFER] = c->now.position, [VELOCITIES_BUFFER] = c->now.velocity,
+    BIND([POSITIONS_BUFFER] = c->now.position, [VELOCITIES_BUFFER] = c->now.velocity,
          [NAMES_BUFFER] = c->now.name, [PRESSURES_BUFFER] = c->pressure, [VALUES_BUFFER] = c->shown[what]);
     glProgramUniform1i(c->program[COMPUTE_SHOW], SHOWN_SCALAR_AT, what);
     compute_run(c, COMPUTE_SHOW, c->count);
@@ -158,7 +158,7 @@ static bool prepare(Compute *c, Mailbox *mailbox, ComputePass pass, const char *
 /* Sums over the particles, into the mailbox. */
 static void add_up(Compute *c, Mailbox *mailbox, ComputePass pass)
 {
-    BIND(c, [POSITIONS_BUFFER] = c->now.position, [VELOCITIES_BUFFER] = c->now.velocity,
+    BIND([POSITIONS_BUFFER] = c->now.position, [VELOCITIES_BUFFER] = c->now.velocity,
          [NAMES_BUFFER] = c->now.name, [PARTS_BUFFER] = mailbox->buffer);
     compute_run(c, pass, (size_t)COMPUTE_GAUGE_GROUPS * COMPUTE_GROUP);
     mailbox_send(mailbox);

@@ -232,14 +232,14 @@ void compute_boundary_grid(Compute *c)
     b->due = false;
     compute_clear(c, b->start, 4 * (places + 2));
     compute_boundary_bind(c);
-    BIND(c, [RESTS_BUFFER] = b->rest, [CELLS_BUFFER] = b->cell, [RANKS_BUFFER] = b->rank,
+    BIND([RESTS_BUFFER] = b->rest, [CELLS_BUFFER] = b->cell, [RANKS_BUFFER] = b->rank,
          [STARTS_BUFFER] = b->start);
     compute_run(c, COMPUTE_BOUNDARY_BIN, n);
     compute_scan(c, b->start, places + 2);
-    BIND(c, [CELLS_BUFFER] = b->cell, [RANKS_BUFFER] = b->rank, [STARTS_BUFFER] = b->start,
+    BIND([CELLS_BUFFER] = b->cell, [RANKS_BUFFER] = b->rank, [STARTS_BUFFER] = b->start,
          [ORDERS_BUFFER] = b->order);
     compute_run(c, COMPUTE_BOUNDARY_PLACE, n);
-    BIND(c, [RESTS_BUFFER] = b->rest, [ORDERS_BUFFER] = b->order);
+    BIND([RESTS_BUFFER] = b->rest, [ORDERS_BUFFER] = b->order);
     compute_run(c, COMPUTE_BOUNDARY_SORT, places);
 }
 
@@ -339,7 +339,7 @@ bool compute_forces_send(Compute *c)
     ComputeForces *forces = &c->forces;
     if (!forces->to)
         return false;
-    BIND(c, [FORCES_BUFFER] = forces->buffer, [FORCES_RESTS_BUFFER] = c->boundary.rest,
+    BIND([FORCES_BUFFER] = forces->buffer, [FORCES_RESTS_BUFFER] = c->boundary.rest,
          [FORCE_SUMS_BUFFER] = forces->sums.buffer);
     compute_run(c, COMPUTE_FORCES_SUM, (size_t)(1 + c->constants->solid_count) * COMPUTE_GROUP);
     mailbox_send(&forces->sums);

@@ -18,20 +18,20 @@ void compute_grid(void *state)
     unsigned order = c->order;
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     compute_clear(c, c->start, 4 * (c->fold.count + 1));
-    BIND(c, [POSITIONS_BUFFER] = c->now.position, [CELLS_BUFFER] = c->cell, [RANKS_BUFFER] = c->rank,
+    BIND([POSITIONS_BUFFER] = c->now.position, [CELLS_BUFFER] = c->cell, [RANKS_BUFFER] = c->rank,
          [STARTS_BUFFER] = c->start);
     compute_run(c, COMPUTE_BIN, c->count);
     compute_scan(c, c->start, c->fold.count + 1);
-    BIND(c, [CELLS_BUFFER] = c->cell, [RANKS_BUFFER] = c->rank, [STARTS_BUFFER] = c->start,
+    BIND([CELLS_BUFFER] = c->cell, [RANKS_BUFFER] = c->rank, [STARTS_BUFFER] = c->start,
          [ORDERS_BUFFER] = c->order);
     compute_run(c, COMPUTE_PLACE, c->count);
     if (c->constants->reproducible) {
-        BIND(c, [NAMES_BUFFER] = c->now.name, [CELLS_BUFFER] = c->cell, [STARTS_BUFFER] = c->start,
+        BIND([NAMES_BUFFER] = c->now.name, [CELLS_BUFFER] = c->cell, [STARTS_BUFFER] = c->start,
              [ORDERS_BUFFER] = c->order, [SORTED_BUFFER] = c->rank);
         compute_run(c, COMPUTE_SORT, c->count);
         order = c->rank; /* free at this point */
     }
-    BIND(c, [ORDERS_BUFFER] = order, [OLD_POSITIONS_BUFFER] = c->now.position,
+    BIND([ORDERS_BUFFER] = order, [OLD_POSITIONS_BUFFER] = c->now.position,
          [OLD_VELOCITIES_BUFFER] = c->now.velocity, [OLD_NAMES_BUFFER] = c->now.name,
          [POSITIONS_BUFFER] = c->spare.position, [VELOCITIES_BUFFER] = c->spare.velocity,
          [NAMES_BUFFER] = c->spare.name, [LISTS_BUFFER] = c->lists);
@@ -163,14 +163,14 @@ static void sum_up(Compute *c, const ColumnDef *column, int which, const ColumnD
     const size_t groups = excess_groups(c);
     glProgramUniform4ui(c->program[COMPUTE_EXCESS], COLUMN_AT, place_of(c, column),
                         (GLuint)((size_t)which * groups), place_of(c, power), place_of(c, curvature));
-    BIND(c, [SCRATCH_BUFFER] = c->scratch, [PARTS_BUFFER] = c->parts);
+    BIND([SCRATCH_BUFFER] = c->scratch, [PARTS_BUFFER] = c->parts);
     compute_run(c, COMPUTE_EXCESS, groups * COMPUTE_GROUP);
 }
 
 static void decide(Compute *c, const Iteration *iteration)
 {
     sum_up(c, iteration->residual, RESIDUAL_PARTS, iteration->power, iteration->curvature);
-    BIND(c, [PARTS_BUFFER] = c->parts, [SOLVE_BUFFER] = c->solve);
+    BIND([PARTS_BUFFER] = c->parts, [SOLVE_BUFFER] = c->solve);
     compute_run(c, COMPUTE_DECIDE, COMPUTE_GROUP);
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
 }
