@@ -242,6 +242,9 @@ typedef struct Backend {
     /* Sums for sim/step/world.h, at once; `second` and `turn` only for turning boxes. NULL: the
        backend has the gauge instead. */
     void (*energy)(void *state, bool turning, EnergySums *sums);
+    /* Call before `finish` of a step, if `energy` is likely to follow: sums arrive with the step's results.
+       NULL: nothing to gain. */
+    void (*energy_ahead)(void *state);
     /* From now on, steps add forces on box and solids to `to`; `to` NULL: stop. Returns false if memory is
        short. NULL: the backend sums no forces. */
     bool (*enable_forces)(void *state, struct Forces *to, Error *error);

@@ -294,6 +294,16 @@ static bool compare(World *world)
     return true;
 }
 
+bool energy_expects_look(const World *world)
+{
+    static const double GROWS = 1.1; /* the speed in a frame */
+    const EnergyMark *mark = &world->energy;
+    return watched(world) && world->stepping.frame_left == 1 &&
+           (mark->until == 0 || (double)world->step + 1 >= mark->next || mark->velocity_jumps != 0 ||
+            GROWS * world->stepping.max_speed > FASTER * mark->speed ||
+            jolts(world, &mark->box, &world->box));
+}
+
 bool energy_is_valid(World *world)
 {
     const EnergyMark *mark = &world->energy;

@@ -139,6 +139,10 @@ size_t world_held(const World *world);
    grown, with the reason in world->seen; compares only at the ends of frames. */
 bool energy_is_valid(World *world);
 
+/* True if `energy_is_valid` is likely to read the sums at the end of the present step, the last of a frame.
+ */
+bool energy_expects_look(const World *world);
+
 /* Call before a step. `begin`: the box at the step's begin; world->box is at the end. */
 void energy_note_jump(World *world, const BoxState *begin);
 

@@ -155,6 +155,8 @@ static bool take_step(World *world, StageClock *clock, bool guesses, Substep *st
     if (world->backend->enter)
         world->backend->enter(world->state);
     substep_whole(step, world->method->substep);
+    if (world->backend->energy_ahead && energy_expects_look(world))
+        world->backend->energy_ahead(world->state);
     if (world->backend->leave)
         world->backend->leave(world->state);
     *good = world_finish(world);

@@ -226,6 +226,42 @@ static void gauges_are_those_of_the_cpu(void **state)
 }
 
 /* Whoever is the fastest in a work group: steps and the sentinel go by it. */
+static double energy_now(World *world)
+{
+    EnergySums sums;
+    world->backend->energy(world->state, true, &sums);
+    return sums.own;
+}
+
+/* Energy asked for ahead is of the state now, whatever came since. */
+static void energy_ahead_is_of_the_state_now(void **state)
+{
+    (void)state;
+    const Backend *backend = &backend_compute;
+    WorldDef def = stirred_def(3);
+    def.retries = 3;
+    World *world = world_on(def, "compute");
+    WorldState saved = {0};
+    Error error = {0};
+    fixture_step(world, 20);
+    const double before = energy_now(world);
+    assert_true(world_save(world, &saved, &error));
+    backend->energy_ahead(world->state);
+    assert_true(energy_now(world) == before);
+
+    backend->energy_ahead(world->state);
+    backend->kick(world->state, (const float[3]){0, -10, 0}, 0.1F);
+    const double kicked = energy_now(world);
+    assert_true(fabs(kicked - before) > 0.1 * before);
+
+    backend->energy_ahead(world->state);
+    assert_true(world_load(world, &saved, &error));
+    const double loaded = energy_now(world);
+    assert_true(loaded == energy_now(world) && fabs(loaded - before) < 0.01 * before);
+    world_state_free(&saved);
+    world_destroy(world);
+}
+
 static void the_fastest_is_found(void **state)
 {
     (void)state;
@@ -277,6 +313,7 @@ int main(void)
         cmocka_unit_test_teardown(a_run_is_the_same_each_time, no_gl_errors),
         cmocka_unit_test_teardown(save_load_step_is_step, no_gl_errors),
         cmocka_unit_test_teardown(gauges_are_those_of_the_cpu, no_gl_errors),
+        cmocka_unit_test_teardown(energy_ahead_is_of_the_state_now, no_gl_errors),
         cmocka_unit_test_teardown(the_fastest_is_found, no_gl_errors),
         cmocka_unit_test_teardown(what_it_cannot_do_is_said, no_gl_errors),
     };

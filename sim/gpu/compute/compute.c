@@ -219,6 +219,7 @@ const Backend backend_compute = {
     .gauge = compute_gauge,
     .gauged = compute_gauged,
     .energy = compute_energy,
+    .energy_ahead = compute_energy_ahead,
     .save = compute_save,
     .load = compute_load,
     .info = compute_info,

@@ -164,6 +164,7 @@ typedef struct Compute {
     Mailbox gauge;  /* GaugePart per group; none before the first `gauge` */
     Mailbox energy; /* energy.comp: sums per group; none before the first */
     size_t gauged;  /* particles in the last gauge */
+    bool summed;    /* `energy` is sent, of the present state */
     ComputeForces forces;
     unsigned shown[COMPUTE_SHOWN]; /* for the views: uint or float; 0 before the first request */
     unsigned constant_block, step; /* uniform blocks */
@@ -362,6 +363,7 @@ bool compute_read(void *state, const ParticleArrays *out);
 bool compute_gauge(void *state, const double gravity[3]);
 bool compute_gauged(void *state, WorldGauge *gauge, bool waits);
 void compute_energy(void *state, bool turning, EnergySums *sums);
+void compute_energy_ahead(void *state);
 bool compute_save(void *state, const ParticleColumns *to);
 bool compute_load(void *state, const ParticleColumns *from, size_t count, size_t guarded);
 void compute_info(const void *state, WorldInfo *info);

@@ -188,8 +188,16 @@ static GLintptr decided_at(const Compute *c, ComputePass pass)
                                     : -1;
 }
 
+/* True if particles stay as they are. */
+static bool only_reads(ComputePass pass)
+{
+    return pass == COMPUTE_ENERGY || pass == COMPUTE_GAUGE || pass == COMPUTE_SHOW ||
+           pass == COMPUTE_FORCES_SUM || pass == COMPUTE_COPY || pass == COMPUTE_CLEAR;
+}
+
 void compute_run(Compute *c, ComputePass pass, size_t count)
 {
+    c->summed &= only_reads(pass);
     const GLintptr decided = decided_at(c, pass);
     const bool watched = pass == COMPUTE_KICK || pass == COMPUTE_DRIFT;
     bind_blocks(c);

@@ -194,20 +194,30 @@ bool compute_gauged(void *state, WorldGauge *gauge, bool waits)
     return true;
 }
 
+void compute_energy_ahead(void *state)
+{
+    Compute *c = state;
+    const float none = 0, sound = c->constants->sound_speed;
+    if (!prepare(c, &c->energy, COMPUTE_ENERGY, "energy", ENERGY_VECTORS * 4 * sizeof(float)))
+        return;
+    glProgramUniform4f(c->program[COMPUTE_ENERGY], GRAVITY_C2_AT, none, none, none, sound * sound);
+    add_up(c, &c->energy, COMPUTE_ENERGY);
+    c->summed = true;
+}
+
 /* Without an answer the energy is not a number, and the watch finds nothing. */
 void compute_energy(void *state, bool turning, EnergySums *sums)
 {
     Compute *c = state;
     const double unit = c->constants->unit_volume; /* masses are over the unit volume */
-    const float none = 0, sound = c->constants->sound_speed;
-    const float(*part)[4] = NULL;
-    (void)turning; /* all sums cost the same */
+    (void)turning;                                 /* all sums cost the same */
     *sums = (EnergySums){.own = NAN};
-    if (prepare(c, &c->energy, COMPUTE_ENERGY, "energy", ENERGY_VECTORS * sizeof *part)) {
-        glProgramUniform4f(c->program[COMPUTE_ENERGY], GRAVITY_C2_AT, none, none, none, sound * sound);
-        add_up(c, &c->energy, COMPUTE_ENERGY);
+    const float(*part)[4] = c->summed ? mailbox_look(&c->energy) : NULL;
+    if (!c->summed)
+        compute_energy_ahead(c);
+    if (!part)
         part = mailbox_wait(&c->energy);
-    }
+    c->summed = false;
     if (part)
         sums->own = 0;
     for (int group = 0; part && group < COMPUTE_GAUGE_GROUPS; group++, part += ENERGY_VECTORS) {
