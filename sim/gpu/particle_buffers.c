@@ -12,13 +12,13 @@
 bool mailbox_create(Mailbox *mailbox, const char *label, size_t bytes)
 {
     const GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-    const GLsizeiptr size = (GLsizeiptr)bytes;
-    mailbox->bytes = bytes;
+    mailbox->bytes = (bytes + 31) / 32 * 32; /* some drivers round uniform blocks up to as much */
+    const GLsizeiptr size = (GLsizeiptr)mailbox->bytes;
     glCreateBuffers(1, &mailbox->buffer);
     glObjectLabel(GL_BUFFER, mailbox->buffer, -1, label);
     glCreateBuffers(1, &mailbox->copy);
     glObjectLabel(GL_BUFFER, mailbox->copy, -1, label);
-    void *zeros = calloc(1, bytes);
+    void *zeros = calloc(1, mailbox->bytes);
     glNamedBufferStorage(mailbox->buffer, size, zeros, GL_DYNAMIC_STORAGE_BIT);
     free(zeros);
     glNamedBufferStorage(mailbox->copy, size, NULL, access | GL_CLIENT_STORAGE_BIT);

@@ -58,8 +58,9 @@ uint fly(uint i)
     vec3 free = v;
 #endif
     bool held = false;
-    int axes = dimensions == 2 ? 2 : 3;
-    for (int a = 0; a < axes; a++) {
+    for (int a = 0; a < 3; a++) { // not as many as dimensions: compilers unroll, and x[a] is in a register
+        if (a >= dimensions)
+            continue;
 #ifdef PERIODIC
         if (periodic[a])
             continue;

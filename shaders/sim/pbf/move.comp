@@ -39,8 +39,9 @@ void hold_back(vec3 from, inout vec3 x)
     if (solids_guard(from, x, v))
         apart = 0.0;
 #endif
-    int axes = dimensions == 2 ? 2 : 3;
-    for (int a = 0; a < axes; a++) {
+    for (int a = 0; a < 3; a++) { // as in drift.comp
+        if (a >= dimensions)
+            continue;
 #ifdef PERIODIC
         if (periodic[a])
             continue;
