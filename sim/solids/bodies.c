@@ -11,6 +11,7 @@ struct Bodies {
     double parted; /* greatest shift of overlaps in the last step, m */
     Forces forces; /* since the last bodies_kick or bodies_end */
     Forces *copy;  /* also receives the forces; may be NULL */
+    bool owes_end; /* forces of the last step's end are under way */
     BodiesStep step;
     BoxState fixed[SOLIDS_MAX]; /* poses of fixed solids at the end of the step */
 };
@@ -200,6 +201,17 @@ void bodies_end(Bodies *bodies)
     for (int k = 0; k < SOLIDS_MAX; k++)
         if (floats(bodies, k))
             push_add(&bodies->now.of[k].left, 1, &push[k]);
+    bodies->owes_end = false;
+}
+
+void bodies_end_later(Bodies *bodies)
+{
+    bodies->owes_end = true;
+}
+
+bool bodies_owe_end(const Bodies *bodies)
+{
+    return bodies->owes_end;
 }
 
 double bodies_shift(const Bodies *bodies)
@@ -238,6 +250,7 @@ void bodies_load(Bodies *bodies, const BodyStates *from)
 {
     bodies->now = *from;
     bodies->forces = (Forces){.seconds = 0};
+    bodies->owes_end = false;
 }
 
 bool bodies_are_valid(const Bodies *bodies, const BodyStates *states)

@@ -315,15 +315,19 @@ void bodies_copy_forces(Bodies *bodies, Forces *to);
 void bodies_poses(const Bodies *bodies, BoxState floating[SOLIDS_MAX], SolidPose pose[SOLIDS_MAX]);
 
 /* Moves the bodies through the first half of a step, with BodiesIn.leaps through both. Arrays in `step` must
-   stay valid until bodies_end. */
+   stay valid until the step's end. */
 void bodies_begin(Bodies *bodies, const BodiesStep *step);
 
 /* Applies the fluid forces up to the kick, and contacts; then moves the bodies through the second half. With
    BodiesIn.leaps only velocities change, and the call may come at the step's end. */
 void bodies_kick(Bodies *bodies);
 
-/* Ends a step: keeps the forces since the kick for the next kick. */
+/* Ends a step: keeps the forces since the kick for the next kick. With forces under way from a device,
+   bodies_end_later comes at the step's end, and bodies_end before the next kick or save. bodies_owe_end: true
+   in between. */
 void bodies_end(Bodies *bodies);
+void bodies_end_later(Bodies *bodies);
+bool bodies_owe_end(const Bodies *bodies);
 
 /* Greatest distance by which overlaps were moved apart in the last step, m. No force does the work of these
    shifts. */

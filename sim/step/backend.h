@@ -243,16 +243,19 @@ typedef struct Backend {
        backend has the gauge instead. */
     void (*energy)(void *state, bool turning, EnergySums *sums);
     /* Call before `finish` of a step, if `energy` is likely to follow: sums arrive with the step's results.
-       NULL: nothing to gain. */
+       NULL: without gain. */
     void (*energy_ahead)(void *state);
     /* From now on, steps add forces on box and solids to `to`; `to` NULL: stop. Returns false if memory is
        short. NULL: the backend sums no forces. */
     bool (*enable_forces)(void *state, struct Forces *to, Error *error);
-    /* Brings sums of `enable_forces` from the device; waits. Returns false if memory is short. NULL: the sums
-       are always up to date. `mark` and `back` include these sums. */
-    bool (*forces_ready)(void *state);
+    /* `forces_send` starts to bring sums of `enable_forces` since the last call from the device.
+       `forces_take` adds the oldest sums sent, and waits; at most two may be sent before. Returns false
+       without an answer of the device. NULL: the sums are always up to date. `mark` includes these sums;
+       `back` and `load` forget sums under way. */
+    void (*forces_send)(void *state);
+    bool (*forces_take)(void *state);
     /* Call after each step: brings forces, flows and reports of solvers from the device, with a single wait
-       at most. `forces`: as forces_ready. `flowed`: number of particles of each FLOW_LATER, in order, with
+       at most. `forces`: sent and taken. `flowed`: number of particles of each FLOW_LATER, in order, with
        room for FLOWS_MAX. Returns false after a wrong guess: the step must start again. NULL: all is known
        already. */
     bool (*finish)(void *state, bool forces, size_t *flowed);

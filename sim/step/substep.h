@@ -65,6 +65,15 @@ static inline void substep_whole(const Substep *step, void (*method)(const Subst
             (*term)->end(step);
 }
 
+/* Ends the bodies' last step with late forces. */
+static inline void bodies_end_owed(Bodies *bodies, const Backend *backend, void *state)
+{
+    if (!bodies_owe_end(bodies))
+        return;
+    backend->forces_take(state);
+    bodies_end(bodies);
+}
+
 /* The kick of a step, then the effects of finger, emitters and floating bodies. A method that leaps moves
    bodies no more in the step, and forces on bodies come at the step's end. */
 static inline void substep_kick(const Substep *step)
@@ -76,8 +85,11 @@ static inline void substep_kick(const Substep *step)
         *step->driven += step->backend->guide(step->state, step->guides, step->guide_count);
     if (!step->bodies || step->constants->method->leaps)
         return;
-    if (step->backend->forces_ready)
-        step->backend->forces_ready(step->state);
+    if (step->backend->forces_send) {
+        step->backend->forces_send(step->state);
+        bodies_end_owed(step->bodies, step->backend, step->state);
+        step->backend->forces_take(step->state);
+    }
     bodies_kick(step->bodies);
 }
 

@@ -76,7 +76,7 @@ bool world_finish(World *world)
     size_t flowed[FLOWS_MAX];
     if (!world->backend->finish)
         return true;
-    const bool good = world->backend->finish(world->state, world->bodies != NULL, flowed);
+    const bool good = world->backend->finish(world->state, world->bodies && world->method->leaps, flowed);
     for (int k = 0; good && k < world->flow_count; k++)
         if (world->flows[k].drains)
             drained(world, flowed[k]);
@@ -258,7 +258,7 @@ bool world_gauge(World *world, WorldGauge *gauge)
 
 bool world_sum_forces(World *world, Error *error)
 {
-    Forces *to = world->backend->forces_ready ? &world->forces : &world->step_forces;
+    Forces *to = world->backend->forces_send ? &world->forces : &world->step_forces;
     if (!world->backend->enable_forces)
         return error_set(error, "backend %s sums no forces; use backend cpu or compute",
                          world->backend->name);
@@ -280,8 +280,15 @@ void world_forces(World *world, Forces *forces)
     const Backend *backend = world->backend;
     *forces = (Forces){0};
     /* For asynchronous steps: the next step takes these forces back. */
-    if (backend->forces_ready && (!world_is_valid(world) || !backend->forces_ready(world->state)))
+    if (backend->forces_send && !world_is_valid(world))
         return;
+    if (world->bodies)
+        bodies_end_owed(world->bodies, backend, world->state);
+    if (backend->forces_send) {
+        backend->forces_send(world->state);
+        if (!backend->forces_take(world->state))
+            return;
+    }
     *forces = world->forces;
     forces_mean(forces);
     world->forces = world->forces_before = (Forces){0};

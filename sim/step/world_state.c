@@ -227,6 +227,8 @@ void world_save_numbers(World *world, WorldNumbers *numbers)
 {
     WorldInfo info;
     world_is_valid(world);
+    if (world->bodies)
+        bodies_end_owed(world->bodies, world->backend, world->state);
     world_info(world, &info);
     *numbers = (WorldNumbers){
         .version = WORLD_STATE_VERSION,

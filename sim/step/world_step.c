@@ -123,7 +123,8 @@ static void end_of_bodies(World *world)
 {
     if (world->method->leaps)
         bodies_kick(world->bodies);
-    bodies_end(world->bodies);
+    if (!bodies_owe_end(world->bodies))
+        bodies_end(world->bodies);
     if (bodies_shift(world->bodies) > PARTED * world->def.spacing)
         energy_restart(world);
 }
@@ -131,7 +132,7 @@ static void end_of_bodies(World *world)
 /* After a step: passes the forces on solids and box to the energy watch and to world_forces. */
 static void tell_forces(World *world, const Substep *step)
 {
-    if (!world->sums_forces || world->backend->forces_ready)
+    if (!world->sums_forces || world->backend->forces_send)
         return;
     if (energy_needs_solids(world))
         energy_of_solids(world, &world->step_forces, step->solids[0]);
@@ -159,6 +160,10 @@ static bool take_step(World *world, StageClock *clock, bool guesses, Substep *st
         world->backend->energy_ahead(world->state);
     if (world->backend->leave)
         world->backend->leave(world->state);
+    if (world->bodies && !world->method->leaps && world->backend->forces_send) {
+        world->backend->forces_send(world->state);
+        bodies_end_later(world->bodies);
+    }
     *good = world_finish(world);
     return true;
 }

@@ -60,6 +60,7 @@ static void what_is_saved_goes_on_the_same(void **state)
     const WorldDef def = floating_def("mueller");
     World *gpu = world_on(def, "compute"), *later = world_on(def, "compute");
     substeps(gpu, 10);
+    substeps(later, 3); /* forces of its last step are under way */
     copy_state(gpu, later);
     substeps(gpu, 10);
     substeps(later, 10);
@@ -68,11 +69,37 @@ static void what_is_saved_goes_on_the_same(void **state)
     world_destroy(later);
 }
 
+/* Questions for forces in each step leave no trace, and a save before changes no answer. */
+static void questions_leave_no_trace(void **state)
+{
+    (void)state;
+    for (int m = 0; m < 4; m++) {
+        const WorldDef def = floating_def(fixture_method_names[m]);
+        Error error = {0};
+        World *asked = world_on(def, "compute"), *saved = world_on(def, "compute");
+        assert_true(world_enable_forces(asked, &error) && world_enable_forces(saved, &error));
+        for (int k = 0; k < 10; k++) {
+            Forces one, two;
+            substeps(asked, 1);
+            substeps(saved, 1);
+            world_forces(asked, &one);
+            const uint64_t hash = world_hash(saved);
+            world_forces(saved, &two);
+            assert_true(world_hash(asked) == hash);
+            assert_true(one.seconds > 0 && fabs(one.solid[0].force[1]) > 0);
+            assert_memory_equal(&one, &two, sizeof one);
+        }
+        world_destroy(asked);
+        world_destroy(saved);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(compute_moves_them_as_cpu_does),
         cmocka_unit_test(what_is_saved_goes_on_the_same),
+        cmocka_unit_test(questions_leave_no_trace),
     };
     return cmocka_run_group_tests(tests, compare_setup, context_teardown);
 }

@@ -279,11 +279,38 @@ static void a_step_waits_once(void **state)
     assert_in_range(right, all * 9 / 10, all);
 }
 
+/* A wait for the forces on bodies in the middle of each step; forces at its end come with the next wait. */
+static void bodies_wait_once_a_step(void **state)
+{
+    enum { STEPS = 4 };
+    (void)state;
+    for (int m = 0; m < 2; m++) {
+        Error error = {0};
+        WorldDef def = pool_on("compute", fixture_method_names[m]);
+        floating(&def);
+        def.substeps = STEPS;
+        def.dt *= STEPS;
+        World *world = fixture_world(&def);
+        fixture_step(world, WARM);
+        draw_check_set(false);
+        const GlCalls before = gl_calls();
+        for (int frame = 0; frame < FRAMES; frame++)
+            if (!world_step(world, NULL, &error))
+                fail_msg("%s", error.message);
+        const GlCalls of = gl_calls_since(&before);
+        draw_check_set(true);
+        printf("%s: %.1f waits in a frame of %d steps\n", def.method, (double)of.waits / FRAMES, STEPS);
+        assert_in_range(of.waits, FRAMES * STEPS, FRAMES * (STEPS + 1) + 1);
+        world_destroy(world);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(a_frame_waits_once, no_gl_errors),
         cmocka_unit_test_teardown(a_step_waits_once, no_gl_errors),
+        cmocka_unit_test_teardown(bodies_wait_once_a_step, no_gl_errors),
     };
     return cmocka_run_group_tests_name("gl.waits", tests, compare_setup, context_teardown);
 }

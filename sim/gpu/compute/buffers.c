@@ -347,6 +347,16 @@ bool compute_save(void *state, const ParticleColumns *to)
     return entries != NULL;
 }
 
+void compute_forces_forget(Compute *c)
+{
+    ComputeForces *forces = &c->forces;
+    for (int k = 0; k < 2; k++) {
+        mailbox_forget(&forces->sums[k]);
+        forces->here[k] = NULL;
+    }
+    forces->taken = forces->sent;
+}
+
 bool compute_load(void *state, const ParticleColumns *from, size_t count, size_t guarded)
 {
     Compute *c = state;
@@ -357,6 +367,7 @@ bool compute_load(void *state, const ParticleColumns *from, size_t count, size_t
     upload(c, from, entries);
     free(entries);
     compute_watch_reset(c, guarded);
+    compute_forces_forget(c);
     return true;
 }
 

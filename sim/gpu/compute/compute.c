@@ -27,7 +27,8 @@ static void compute_destroy(void *state)
     mailbox_destroy(&c->gauge);
     mailbox_destroy(&c->energy);
     mailbox_destroy(&c->solves.found);
-    mailbox_destroy(&c->forces.sums);
+    for (int k = 0; k < 2; k++)
+        mailbox_destroy(&c->forces.sums[k]);
     compute_boundary_destroy(c);
     compute_meshes_destroy(c);
     compute_flow_destroy(c);
@@ -214,7 +215,8 @@ const Backend backend_compute = {
     .sums = compute_sums,
     .read = compute_read,
     .enable_forces = compute_enable_forces,
-    .forces_ready = compute_forces_ready,
+    .forces_send = compute_forces_send,
+    .forces_take = compute_forces_take,
     .finish = compute_finish,
     .gauge = compute_gauge,
     .gauged = compute_gauged,

@@ -114,7 +114,9 @@ typedef struct ComputeFlow {
 /* Forces on box and solids; no buffers before a request. */
 typedef struct ComputeForces {
     unsigned buffer, marked; /* ForcePart: shaders/sim/forces.glsl; at the state marked by the sentinel */
-    Mailbox sums;            /* ForceSum of the box and of each solid */
+    Mailbox sums[2];         /* ForceSum of the box and of each solid, sent by turns */
+    const void *here[2];     /* arrived */
+    unsigned sent, taken;
     double seconds, seconds_marked;
     struct Forces *to; /* NULL: not requested */
 } ComputeForces;
@@ -236,11 +238,12 @@ size_t compute_group_parts(const Compute *compute);
 void compute_add_solid_forces(Compute *compute, const Pass *pass, float dt);
 void compute_forces_mark(Compute *compute);
 void compute_forces_back(Compute *compute);
+void compute_forces_forget(Compute *compute); /* sums under way */
 
-/* compute_forces_send: sends the sums of forces; false without a request. compute_forces_take: adds arrived
-   sums. */
-bool compute_forces_send(Compute *compute);
-void compute_forces_take(Compute *compute, const void *sums);
+/* The mailbox of the last sums sent and not taken; NULL without. compute_forces_arrive: `sums` are the
+   contents on arrival. */
+Mailbox *compute_forces_newest(Compute *compute);
+void compute_forces_arrive(Compute *compute, const void *sums);
 
 /* The same for layers and drains: writes the particles of each, at least FLOWS_MOST numbers, and sets the
    number of particles. */
@@ -355,7 +358,8 @@ StepWatch compute_watch(void *state);
 bool compute_mark(void *state, Error *error);
 void compute_back(void *state, size_t count, size_t guarded);
 bool compute_enable_forces(void *state, struct Forces *to, Error *error);
-bool compute_forces_ready(void *state);
+void compute_forces_send(void *state);
+bool compute_forces_take(void *state);
 bool compute_finish(void *state, bool forces, size_t *flowed);
 void compute_share(void *state, unsigned attributes, struct ParticleBuffers *out);
 void compute_sums(void *state, WorldSums *sums);

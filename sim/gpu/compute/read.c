@@ -261,6 +261,9 @@ StepWatch compute_watch(void *state)
         watched = mailbox_wait(&c->watch);
     if (!watched)
         return (StepWatch){.bounded = false};
+    Mailbox *forces = compute_forces_newest(c); /* sent before the watch */
+    if (forces && forces->fence)
+        compute_forces_arrive(c, mailbox_look(forces));
     const bool leaps = c->constants->method->leaps;
     const float fastest = leaps ? 1e18F : c->constants->support_radius / c->longest,
                 speed2 = float_of_bits(watched->greatest_speed2);

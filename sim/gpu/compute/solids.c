@@ -268,10 +268,11 @@ static bool prepare(Compute *c)
         forces->buffer = compute_buffer(c, "forces on box and solids", bytes(c));
     if (!forces->marked)
         forces->marked = compute_buffer(c, "forces at the mark", bytes(c));
-    if (!forces->sums.buffer)
-        mailbox_create(&forces->sums, "sums of forces", (1 + SOLIDS_MAX) * sizeof(ForceSum));
+    for (int k = 0; k < 2; k++)
+        if (!forces->sums[k].buffer)
+            mailbox_create(&forces->sums[k], "sums of forces", (1 + SOLIDS_MAX) * sizeof(ForceSum));
     c->full = false; /* the world can go on without */
-    return forces->buffer && forces->marked && forces->sums.mapped;
+    return forces->buffer && forces->marked && forces->sums[0].mapped && forces->sums[1].mapped;
 }
 
 static void forces_clear(Compute *c)
@@ -319,6 +320,7 @@ void compute_forces_back(Compute *c)
     ComputeForces *forces = &c->forces;
     if (forces->to)
         compute_copy(c, forces->marked, forces->buffer, 0, bytes(c));
+    compute_forces_forget(c);
     forces->seconds = forces->seconds_marked;
 }
 
@@ -334,34 +336,48 @@ static void add_sum(const Compute *c, const ForceSum *sum, Push *to)
     push_add(to, 1, &push);
 }
 
-bool compute_forces_send(Compute *c)
-{
-    ComputeForces *forces = &c->forces;
-    if (!forces->to)
-        return false;
-    BIND([FORCES_BUFFER] = forces->buffer, [FORCES_RESTS_BUFFER] = c->boundary.rest,
-         [FORCE_SUMS_BUFFER] = forces->sums.buffer);
-    compute_run(c, COMPUTE_FORCES_SUM, (size_t)(1 + c->constants->solid_count) * COMPUTE_GROUP);
-    mailbox_send(&forces->sums);
-    forces->to->seconds += forces->seconds;
-    forces_clear(c);
-    return true;
-}
-
-void compute_forces_take(Compute *c, const void *sums)
-{
-    const ForceSum *sum = sums;
-    Forces *to = c->forces.to;
-    for (int k = 0; sum && k <= c->constants->solid_count; k++)
-        add_sum(c, &sum[k], k > 0 ? &to->solid[k - 1] : &to->box);
-}
-
-bool compute_forces_ready(void *state)
+void compute_forces_send(void *state)
 {
     Compute *c = state;
-    if (!compute_forces_send(c))
+    ComputeForces *forces = &c->forces;
+    if (!forces->to)
+        return;
+    Mailbox *sums = &forces->sums[forces->sent % 2];
+    BIND([FORCES_BUFFER] = forces->buffer, [FORCES_RESTS_BUFFER] = c->boundary.rest,
+         [FORCE_SUMS_BUFFER] = sums->buffer);
+    compute_run(c, COMPUTE_FORCES_SUM, (size_t)(1 + c->constants->solid_count) * COMPUTE_GROUP);
+    mailbox_send(sums);
+    forces->sent++;
+    forces->to->seconds += forces->seconds;
+    forces_clear(c);
+}
+
+Mailbox *compute_forces_newest(Compute *c)
+{
+    ComputeForces *forces = &c->forces;
+    return forces->sent == forces->taken ? NULL : &forces->sums[(forces->sent - 1) % 2];
+}
+
+void compute_forces_arrive(Compute *c, const void *sums)
+{
+    c->forces.here[(c->forces.sent - 1) % 2] = sums;
+}
+
+bool compute_forces_take(void *state)
+{
+    Compute *c = state;
+    ComputeForces *forces = &c->forces;
+    Mailbox *newest = compute_forces_newest(c);
+    if (!newest)
         return true;
-    const void *sums = mailbox_wait(&c->forces.sums);
-    compute_forces_take(c, sums);
-    return sums != NULL;
+    if (newest->fence)
+        compute_forces_arrive(c, mailbox_wait(newest));
+    const unsigned oldest = forces->taken++ % 2;
+    if (forces->sums[oldest].fence) /* sent before, hence here */
+        forces->here[oldest] = mailbox_look(&forces->sums[oldest]);
+    const ForceSum *sum = forces->here[oldest];
+    for (int k = 0; sum && forces->to && k <= c->constants->solid_count; k++)
+        add_sum(c, &sum[k], k > 0 ? &forces->to->solid[k - 1] : &forces->to->box);
+    forces->here[oldest] = NULL;
+    return sum != NULL;
 }

@@ -296,12 +296,18 @@ static void finish(Compute *c, bool forces, size_t *flowed)
     compute_watch_send(c);
     if (guesses)
         mailbox_send(guesses);
-    const bool flows = compute_flow_send(c), sums = forces && compute_forces_send(c);
-    Mailbox *const last = sums ? &c->forces.sums : flows ? &c->flow.counts : guesses;
+    const bool flows = compute_flow_send(c);
+    if (forces)
+        compute_forces_send(c);
+    Mailbox *const sums = forces ? compute_forces_newest(c) : NULL, *const last = sums    ? sums
+                                                                                  : flows ? &c->flow.counts
+                                                                                          : guesses;
     const void *found = last ? mailbox_wait(last) : NULL;
     c->watch_here = found;
-    if (sums)
-        compute_forces_take(c, found);
+    if (sums) {
+        compute_forces_arrive(c, found);
+        compute_forces_take(c);
+    }
     if (flows)
         compute_flow_take(c, last == &c->flow.counts ? found : mailbox_look(&c->flow.counts), flowed);
     if (guesses)
