@@ -71,7 +71,7 @@ static void count_frame(World *world, const char *label, int more, Count *sum)
     else if (iterates && !sum->guessed) /* for the watch of that frame */
         more++;
     sum->guessed = guessed && !wrong;
-    if (of.waits > (uint64_t)(steps * (1 + more) + (looks && sum->surges)) || of.readbacks > 0)
+    if ((int)of.waits > steps * (1 + more) + (looks && sum->surges) || of.readbacks > 0)
         fail_msg("%s, frame %d: %d waits in %d steps, %d read-backs", label, sum->frames, (int)of.waits,
                  steps, (int)of.readbacks);
 }
