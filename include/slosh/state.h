@@ -184,7 +184,7 @@ typedef struct ColumnDef {
 /* Index in `own` of a column's first component; -1: the column is not in `own`. */
 int column_own(const ColumnDef *column);
 
-/* True if a method's rows (NULL: none) include a saved column in `own`. */
+/* True if a method's rows (NULL: none) include a column in `own` saved by every world. */
 bool columns_save_own(const ColumnDef *own);
 
 /* Columns of every method; remainders of rounded positions in wide boxes (sim/box/box.h). Both lists end

@@ -48,6 +48,7 @@ typedef uint64_t ParticleId;
     X(RATE, "rate", "1/s")                                                                                   \
     X(BOUNDARY_PART, "boundary_part", "")                                                                    \
     X(BOUNDARY_RATE, "boundary_rate", "1/s")                                                                 \
+    X(BOUNDARY_MEAN, "boundary_mean", "")                                                                    \
     X(KEPT_TERM, "kept_term", "Pa")                                                                          \
     X(TERM, "term", "Pa")                                                                                    \
     X(BEFORE, "before", "")                                                                                  \

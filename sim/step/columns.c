@@ -99,7 +99,7 @@ int column_own(const ColumnDef *column)
 
 bool columns_save_own(const ColumnDef *own)
 {
-    while (own && own->name && !(own->flags & COLUMN_SAVED && column_own(own) >= 0))
+    while (own && own->name && (own->needed || !(own->flags & COLUMN_SAVED) || column_own(own) < 0))
         own++;
     return own && own->name;
 }

@@ -7,6 +7,7 @@
 #include "shaders/sim/exact_shapes_block.h"
 #include "shaders/sim/flow_block.h"
 #include "shaders/sim/mesh_block.h"
+#include "shaders/sim/mueller/mueller_block.h"
 #include "shaders/sim/pbf/pbf_block.h"
 #include "shaders/sim/solid_steps_block.h"
 #include "shaders/sim/step_block.h"
@@ -17,6 +18,7 @@
 #define CONSTANT(member) MEMBER(ConstantBlock, member)
 #define STEP(member)     MEMBER(StepBlock, member)
 #define TERM(member)     MEMBER(TermBlock, member)
+#define MUELLER(member)  MEMBER(MuellerBlock, member)
 #define WCSPH(member)    MEMBER(WcsphBlock, member)
 #define DFSPH(member)    MEMBER(DfsphBlock, member)
 #define PBF(member)      MEMBER(PbfBlock, member)
@@ -46,6 +48,7 @@
               TERM(curvature_most), TERM(fluid_terms[0].tension), TERM(fluid_terms[0].wet),                  \
               TERM(fluid_terms[7].wet), TERM(drag_nodes), TERM(drag_steps), TERM(drag_offset),               \
               TERM(lid_velocity)),                                                                           \
+        BLOCK("sim/mueller/mueller_block.h", MuellerBlock, MUELLER(boundary_fades), MUELLER(boundary_most)), \
         BLOCK("sim/wcsph/wcsph_block.h", WcsphBlock, WCSPH(gradient_scale), WCSPH(diffusion),                \
               WCSPH(radial_friction), WCSPH(shift_speed), WCSPH(density_return), WCSPH(boundary_relaxes),    \
               WCSPH(inverse_sound2), WCSPH(kernel_shape), WCSPH(corrected_gradient), WCSPH(any_artificial),  \

@@ -82,7 +82,7 @@ static const struct {
     {"spheres", "arrows on a grid", arrows, 130, 15, 0},
     {"spheres", "trails", trails, 125, 13, 1},
     {"splat", "plain", plain, 240, 33, 0},
-    {"splat", "water", water, 450, 55, 0},
+    {"splat", "water", water, 450, 58, 0}, /* foam has a list and its life */
     {"splat", "ellipsoids", ellipsoids, 245, 33, 0},
     {"splat", "level", outline, 1900, 240, 0},
     {"volume", "plain", plain, 250, 33, 3},

@@ -18,6 +18,33 @@ void meet(uint j, vec3 d, float volume)
     sum += weight(d);
 }
 
+#ifdef SOLIDS
+#include "shaders/sim/mueller/mueller_block.h"
+#include "sim/own.glsl"
+layout(location = PASS_DT_AT) uniform float dt;
+
+float beside = 0.0; // the part of boundary particles
+
+void meet_boundary(uint j, vec3 d, float volume)
+{
+    float w = weight(d);
+    sum += w;
+    beside += w;
+}
+
+// boundary_part of sim/methods/mueller/mueller.c.
+float boundary_part(uint i)
+{
+    float mean = own[OWN_boundary_mean + i], now = kernel_scale * beside / rest_number_density;
+    float part = mean == 0.0 ? 0.0 : clamp(now - mean, -boundary_most, boundary_most);
+    if (dt > 0.0)
+        own[OWN_boundary_mean + i] = now == 0.0 ? 0.0 : now - part / (1.0 + dt * boundary_fades);
+    return now == 0.0 ? 0.0 : part;
+}
+#else
+#define boundary_part(i) 0.0
+#endif
+
 void main()
 {
     uint i = invocation();
@@ -25,14 +52,14 @@ void main()
         return;
     vec3 x = position[i].xyz;
     ivec3 at = cell_of(x);
-    WALK_NEIGHBOURS(i, x, at, meet, meet, 0)
+    WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, 0)
     int end = images_end(x);
     Image image;
     for (int walls = 1; walls < end; walls++)
         if (image_of(x, walls, image))
-            WALK_AGAIN(i, image.x, at, meet, meet)
+            WALK_AGAIN(i, image.x, at, meet, meet_boundary)
     float n = kernel_scale * sum;
-    float p = fluids[FLUID_OF(i)].stiffness * (n / rest_number_density - 1.0);
+    float p = fluids[FLUID_OF(i)].stiffness * (n / rest_number_density - 1.0 + boundary_part(i));
 #ifndef NEGATIVE_PRESSURE
     p = max(p, 0.0);
 #endif

@@ -12,12 +12,25 @@
 PAIR_LOOPS(mueller_density);
 PAIR_LOOPS(mueller_force);
 
-/* `volume` holds the pair sum on entry. */
-static void finish_density(Cpu *cpu, size_t i)
+/* The boundary part of n / n0, for `added` by boundary particles; 0 at the first boundary particle. */
+static float boundary_part(const Cpu *cpu, size_t i, float added, float dt)
+{
+    const MuellerBlock *own = &mueller_constants(cpu->constants)->sums;
+    float *mean = &cpu->now.own[BOUNDARY_MEAN][i];
+    const float now = added / cpu->constants->rest_number_density, more = *mean == 0 ? 0 : now - *mean,
+                part = fminf(fmaxf(more, -own->boundary_most), own->boundary_most);
+    if (dt > 0)
+        *mean = now == 0 ? 0 : now - part / (1 + dt * own->boundary_fades);
+    return now == 0 ? 0 : part;
+}
+
+/* `volume` holds the pair sum on entry, and `ax` the part of boundary particles. */
+static void finish_density(Cpu *cpu, size_t i, float dt)
 {
     const Constants *s = cpu->constants;
     const CpuParticles *p = &cpu->now;
-    const float n = p->volume[i], pressure = mueller_state(s, p->fluid[i], n / s->rest_number_density - 1);
+    const float n = p->volume[i], part = p->own[BOUNDARY_MEAN] ? boundary_part(cpu, i, p->ax[i], dt) : 0,
+                pressure = mueller_state(s, p->fluid[i], n / s->rest_number_density - 1 + part);
 
     p->volume[i] = 1 / n;
     p->pressure[i] = s->negative_pressure || pressure > 0 ? pressure : 0;
@@ -25,11 +38,21 @@ static void finish_density(Cpu *cpu, size_t i)
     cpu_fill_terms(cpu, i);
 }
 
+/* {x, 1 for boundary particles}. */
+static void pack_density(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float beside = p->fluid[i] < FLUIDS_MAX ? 0 : 1;
+        memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], beside}, 16);
+    }
+}
+
 static void density_body(const CpuRange *range)
 {
     cpu_pairs(range, &mueller_density);
     for (size_t i = range->begin; i < range->end; i++)
-        finish_density(range->cpu, i);
+        finish_density(range->cpu, i, range->input->dt);
 }
 
 static void force_body(const CpuRange *range)
@@ -54,7 +77,8 @@ static PairCost force_pair(const Constants *constants)
     return (PairCost){.gather = 16 + 16 * viscous + 4 * many, .flops = 22 + 11 * viscous + 2 * many};
 }
 
-static const CpuPass density = {.loops = {{density_body, .walks = true}}, .pair = density_pair};
+static const CpuPass density = {.loops = {{density_body, .walks = true, .pack = pack_density}},
+                                .pair = density_pair};
 /* Force of a pair as in force_range of sim/methods/mueller/pairs_mueller.c. */
 static void solid_force(const SolidPair *pair, float out[3])
 {
@@ -80,8 +104,8 @@ const Pass mueller_densities = {
     .stage = STAGE_DENSITY,
     .cpu = &density,
     .shader = "mueller/density",
-    .reads = "position fluid",
-    .writes = "volume pressure pressure_term viscosity tension kind",
+    .reads = "position fluid boundary_mean",
+    .writes = "volume pressure pressure_term viscosity tension kind acceleration boundary_mean",
 };
 
 const Pass mueller_forces = {
@@ -100,7 +124,14 @@ static bool many_viscous(const Constants *constants)
     return constants->viscous && constants->fluid_count > 1;
 }
 
+static bool meets_solids(const Constants *constants)
+{
+    return constants->solid_count > 0;
+}
+
 const ColumnDef mueller_columns[] = {
+    {"boundary_mean", "", .at = COLUMN_OWN(BOUNDARY_MEAN), 1, COLUMN_FLOAT,
+     .flags = COLUMN_SAVED | COLUMN_SORTED, .needed = meets_solids},
     {"viscosity", "Pa s", .at = offsetof(ParticleColumns, viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
      .needed = many_viscous},
     {0},
@@ -183,12 +214,18 @@ static MethodKernels mueller_kernels(const WorldDef *def)
 static void mueller_set(Constants *constants, const WorldDef *def)
 {
     const MethodKernels kernels = mueller_kernels(def);
-    const MuellerConstants own = {.kernel = (DensityKernel)(kernels.density - density_kernels)};
+    const double *g = def->gravity, c = (double)constants->sound_speed;
+    const double layer = def->spacing * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]) / (c * c);
+    const MuellerConstants own = {
+        .sums = {.boundary_fades = constants->sound_speed / (BOUNDARY_FADES * constants->support_radius),
+                 .boundary_most = (float)(BOUNDARY_MOST * layer)},
+        .kernel = (DensityKernel)(kernels.density - density_kernels)};
     const double h = def->support * def->spacing, r = 0.5 * h, half = (5.0625 - 6 * 0.0625) / 0.5;
     /* -W'(r) / r over shape(r / h), or -W'(r) over (1 - r / h)^2, which is -W'(0) */
     const double slope = own.kernel == DENSITY_QUINTIC ? -kernels.slope->derivative(r, h) / r / half
                                                        : -kernel_spiky_derivative(0, h);
     constants->pressure_scale = (float)(slope * constants->lattice.gradient_scale * constants->unit_volume);
+    _Static_assert(sizeof own <= METHOD_CONSTANTS_SIZE, "constants hold it");
     memcpy(constants->of_method, &own, sizeof own);
 }
 

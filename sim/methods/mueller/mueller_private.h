@@ -4,6 +4,7 @@
 
 #include "sim/methods/mueller/mueller.h"
 
+#include "shaders/sim/mueller/mueller_block.h"
 #include "sim/box/box.h"
 #include "sim/cpu/cpu.h"
 #include "sim/step/method.h"
@@ -15,8 +16,22 @@ typedef enum DensityKernel { DENSITY_SPIKY, DENSITY_POLY6, DENSITY_QUINTIC } Den
 
 /* Constants of mueller alone. */
 typedef struct MuellerConstants {
+    MuellerBlock sums;
     DensityKernel kernel;
 } MuellerConstants;
+
+/* The boundary part: n / n0 by boundary particles, less the mean of BOUNDARY_FADES times the crossing of a
+   support radius by sound; at most BOUNDARY_MOST of the compression by a layer's weight. Pressure next to
+   solids sees the boundary part: a boundary particle pushes with p_i + p_b, twice what its part of n stores.
+   Without the boundary part fluid above a plate hums (0.026 sqrt(g H)); unbounded, round solids stir fluid at
+   rest. */
+#define BOUNDARY_FADES 10.0F
+#define BOUNDARY_MOST  0.2F
+
+/* Columns of mueller alone: indices in ParticleColumns.own. */
+enum {
+    BOUNDARY_MEAN, /* mean of n / n0 by boundary particles; 0: none in reach */
+};
 
 static inline const MuellerConstants *mueller_constants(const Constants *constants)
 {

@@ -13,9 +13,10 @@ SIMD_INLINE f8 weight(f8 r2, f8 inverse_h, const DensityKernel kernel)
     return t * t * t;
 }
 
-/* Sum over neighbours, and over neighbours of the group's images, including the particles themselves. */
+/* Sum over neighbours, and over neighbours of the group's images, including the particles themselves. With
+   `solids` also the part of boundary particles, whose place has the weight 1. */
 SIMD_INLINE f8 density_of(const PairArgs *args, size_t i, const LaneImages *images,
-                          const DensityKernel kernel)
+                          const DensityKernel kernel, const bool solids, f8 *beside)
 {
     const f8 inverse_h = f8_splat(1 / args->constants->support_radius);
     const LaneVector at = place_of(args, i);
@@ -23,9 +24,16 @@ SIMD_INLINE f8 density_of(const PairArgs *args, size_t i, const LaneImages *imag
     f8 sum = f8_splat(0);
     NEIGHBOURS (near, j) {
         const f8x4 p = f8_load4(args->place, j);
-        sum += weight(apart(at, p).r2, inverse_h, kernel);
-        for (int m = 1; images && m <= images->count; m++)
-            sum += weight(apart(images->of[m].at, p).r2, inverse_h, kernel);
+        f8 w = weight(apart(at, p).r2, inverse_h, kernel);
+        sum += w;
+        if (solids)
+            *beside += p.w * w;
+        for (int m = 1; images && m <= images->count; m++) {
+            w = weight(apart(images->of[m].at, p).r2, inverse_h, kernel);
+            sum += w;
+            if (solids)
+                *beside += p.w * w;
+        }
     }
     if (images) {
         const SelfLanes own = themselves(args, i);
@@ -36,27 +44,40 @@ SIMD_INLINE f8 density_of(const PairArgs *args, size_t i, const LaneImages *imag
 }
 
 /* sum W; Müller 2003, eq. 3 with unit mass (Solenthaler 2008). Scaled last. */
-SIMD_INLINE void density_range(const PairArgs *args, size_t begin, size_t end, const DensityKernel kernel)
+SIMD_INLINE void density_range(const PairArgs *args, size_t begin, size_t end, const DensityKernel kernel,
+                               const bool solids)
 {
     const f8 one = f8_splat(1), scale = f8_splat(args->constants->kernel_scale);
     const WallsFar far = out_of_sight(args->constants);
     LaneImages images;
     GROUPS (i, begin, end) {
         const bool mirrored = images_of(args, &far, i, begin, end, &images);
-        const f8 sum = mirrored ? density_of(args, i, &images, kernel) : density_of(args, i, NULL, kernel);
+        f8 beside = f8_splat(0);
+        const f8 sum = mirrored ? density_of(args, i, &images, kernel, solids, &beside)
+                                : density_of(args, i, NULL, kernel, solids, &beside);
         lanes_store(args->number_density, i, begin, end, scale * (one + sum)); /* 1: the particle itself */
+        if (solids)
+            lanes_store(args->fx, i, begin, end, scale * beside);
     }
+}
+
+SIMD_INLINE void density_by(const PairArgs *args, size_t begin, size_t end, const bool solids)
+{
+    const DensityKernel kernel = mueller_constants(args->constants)->kernel;
+    if (kernel == DENSITY_POLY6)
+        density_range(args, begin, end, DENSITY_POLY6, solids);
+    else if (kernel == DENSITY_QUINTIC)
+        density_range(args, begin, end, DENSITY_QUINTIC, solids);
+    else
+        density_range(args, begin, end, DENSITY_SPIKY, solids);
 }
 
 PAIR_LOOP(mueller_density)
 {
-    const DensityKernel kernel = mueller_constants(args->constants)->kernel;
-    if (kernel == DENSITY_POLY6)
-        density_range(args, begin, end, DENSITY_POLY6);
-    else if (kernel == DENSITY_QUINTIC)
-        density_range(args, begin, end, DENSITY_QUINTIC);
+    if (args->own[BOUNDARY_MEAN])
+        density_by(args, begin, end, true);
     else
-        density_range(args, begin, end, DENSITY_SPIKY);
+        density_by(args, begin, end, false);
 }
 
 /* Force of pressure at distance r = q h over the distance; poly6 has the spiky slope. */
