@@ -212,6 +212,6 @@ def whole_steps(path):
         for name in names:
             assert file[name].attrs['complete'] == 1
             lengths = {file[name][field][:].shape for field in file[name]}
-            assert len(file[name]) == 11 + ('born' in file['Step#0']) and len(lengths) == 1, lengths
+            assert len(file[name]) == len(file['Step#0']) >= 11 and len(lengths) == 1, lengths
             times.append(float(file[name].attrs['TimeValue']))
     return times

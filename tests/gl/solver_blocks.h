@@ -58,7 +58,8 @@
               DFSPH(friction_gradient), DFSPH(relaxation), DFSPH(pressure_of_term), DFSPH(least_squares),    \
               DFSPH(surface_lack), DFSPH(surface_slope)),                                                    \
         BLOCK("sim/pbf/pbf_block.h", PbfBlock, PBF(gradient), PBF(friction_gradient), PBF(relaxation),       \
-              PBF(least_squares), PBF(pressure_of_term), PBF(viscous_dt), PBF(settle_rate)),                 \
+              PBF(least_squares), PBF(pressure_of_term), PBF(viscous_dt), PBF(settle_rate),                  \
+              PBF(boundary_fades)),                                                                          \
         BLOCK("sim/watch_block.h", WatchBlock, WATCH(greatest_speed2), WATCH(greatest_acceleration2),        \
               WATCH(greatest_density_ratio), WATCH(guarded), WATCH(went_too_far)),                           \
         BLOCK("sim/solid_steps_block.h", SolidStepsBlock, STEPS(solid_total), STEPS(boundary_total),         \

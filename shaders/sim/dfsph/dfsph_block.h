@@ -4,6 +4,7 @@
 
 #include "shaders/shared/block.h"
 #include "shaders/sim/bindings.h"
+#include "shaders/sim/shared/boundary_most.h"
 
 /* Storage buffers, beside those of shaders/sim/bindings.h */
 #define MOVES_BUFFER  3
@@ -30,11 +31,6 @@
 /* What a surface lacks is at most so many times 1 - n / n0: none where n is whole. */
 #define LACK_OVER_GAP 2.0F
 
-/* Most of the second part of boundary particles in the rate, over n0. What boundary particles add to n is off
-   by some 3 % as it is. With 0.02 a disc starts to sink too slowly, with 0.005 water stirs itself after a
-   fall. */
-#define BOUNDARY_MOST 0.01F
-
 /* Layers of pressure below which walls hold no weight: a row that lies alone on a wall has half a layer. */
 #define LIFT_FROM 0.5F
 
@@ -47,7 +43,7 @@ UNIFORM_BLOCK(DfsphBlock, METHOD_BLOCK)
     float least_squares;     /* lower bound of D times m, 1/m2 */
     float surface_lack;      /* the outermost row of a half-filled lattice: 1 - n / n0, */
     float surface_slope;     /* and |sum F x_ij|, 1/m */
-    float boundary_fades;    /* of the second part of boundary particles in the rate, 1/s */
+    float boundary_fades;    /* of the boundary part, 1/s */
 }
 BLOCK_END(DfsphBlock);
 

@@ -50,7 +50,9 @@ void main()
     float more = 0.0;
 #ifdef SOLIDS
     more = (dt * solid_flow - dot(solid_slope, dt * velocity[i].xyz + moved)) / rest_number_density;
+    more = dot(abs(solid_slope), vec3(1)) > 0.0 ? own[OWN_boundary_part + i] + more : 0.0;
     more = clamp(more, -PBF_MIRRORED, PBF_MIRRORED);
+    scratch[SCRATCH_mirrored + i] = more;
 #endif
     float residual = ratio + more - 1.0 - (1.0 - PBF_SHARE(settle_rate * dt)) * found(own[OWN_before + i] - 1.0);
     float factor = 1.0 / (dot(whole, whole) / mass + squares + least_squares / mass);

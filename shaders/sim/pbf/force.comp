@@ -40,7 +40,12 @@ void main()
     acceleration[i] = vec4(other_forces(i) / fluids[FLUID_OF(i)].mass + moved / (dt * dt), 0.0);
     velocity[i] = vec4(velocity[i].xyz - dt * kick_gravity, velocity[i].w);
     pressure[i] = vec2(pressure_of_term * ratio * ratio * k, k);
-    if (dt > 0.0)
+    if (dt > 0.0) {
         own[OWN_before + i] = ratio;
+#ifdef SOLIDS
+        own[OWN_boundary_part + i] =
+            clamp(scratch[SCRATCH_mirrored + i] / (1.0 + dt * boundary_fades), -BOUNDARY_MOST, BOUNDARY_MOST);
+#endif
+    }
 }
 #endif

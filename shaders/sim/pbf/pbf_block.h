@@ -4,6 +4,7 @@
 
 #include "shaders/shared/block.h"
 #include "shaders/sim/bindings.h"
+#include "shaders/sim/shared/boundary_most.h"
 
 /* A storage buffer, beside those of shaders/sim/bindings.h */
 #define MOTIONS_BUFFER 7
@@ -52,6 +53,7 @@ UNIFORM_BLOCK(PbfBlock, METHOD_BLOCK)
     float pressure_of_term;  /* p over k / dt^2 */
     float viscous_dt;        /* longest stable step with friction, s */
     float settle_rate;       /* 1 over the time to settle, 1/s */
+    float boundary_fades;    /* of the boundary part, 1/s */
 }
 BLOCK_END(PbfBlock);
 

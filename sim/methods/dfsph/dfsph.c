@@ -26,23 +26,11 @@ static const Key keys[] = {
    the lattice's. */
 static const float REACH = 1.1F;
 
-/* Times that fluid needs to fall from rest by half a support radius h: the time in which the second part of
-   boundary particles fades. With 2 to 40 fluid beside solids comes to rest. */
-static const double BOUNDARY_FADES = 4;
-
-/* sqrt(g h), m/s. */
-static double fall_of(const WorldDef *def)
-{
-    const double *g = def->gravity, h = def->support * def->spacing;
-    return sqrt(h * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]));
-}
-
 static void dfsph_set(Constants *constants, const WorldDef *def)
 {
     const IncompressibleFactors factors =
         incompressible_factors(def, constants, &dfsph_solvers(constants)->factors);
     const DfsphDef *said = dfsph_def(def);
-    const double h = def->support * def->spacing, fall = fall_of(def);
     const DfsphConstants own = {
         .sums = {.gradient = factors.gradient,
                  .friction_gradient = factors.friction_gradient,
@@ -51,7 +39,7 @@ static void dfsph_set(Constants *constants, const WorldDef *def)
                  .least_squares = factors.least_squares,
                  .surface_lack = (float)said->surface_lack * factors.surface_lack,
                  .surface_slope = factors.surface_slope,
-                 .boundary_fades = (float)(fall / (BOUNDARY_FADES * h))},
+                 .boundary_fades = (float)incompressible_boundary_fades(def)},
         .most = said->iterations,
         .tolerance = said->tolerance,
         .divergence_tolerance = said->divergence_tolerance,
@@ -168,7 +156,8 @@ static StepFriction dfsph_step_friction(const WorldDef *def, const Lattice *latt
 {
     const double h = def->support * def->spacing;
     StepFriction friction = incompressible_friction(def, lattice);
-    friction.numerical = 0.25 * dfsph_def(def)->rest_viscosity * h * fall_of(def) / (def->dimensions + 2);
+    friction.numerical =
+        0.25 * dfsph_def(def)->rest_viscosity * h * incompressible_fall(def) / (def->dimensions + 2);
     friction.numerical_key = "solver.rest_viscosity";
     return friction;
 }

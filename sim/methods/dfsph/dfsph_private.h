@@ -18,9 +18,8 @@
      D_i = |sum F x_ij|^2 / m_i + sum F^2 r^2 / m_j   effect of k_i on the rate of n_i
    Masses are in D alone: ratios of density do not matter in the sums.
    For particle i a boundary particle has k_i (sim/methods/shared/incompressible.h), and the velocity of the
-   solid, mirrored: 2 v_b - v_i. So boundary particles count twice in force, rate and D, and once in n. Moves
-   back to n0 after each step would put work into fluid at rest beside solids. So both solvers hold n / n0 +
-   BOUNDARY_PART: the second part of the rate, at most BOUNDARY_MOST, fading.
+   solid, mirrored: 2 v_b - v_i. So boundary particles count twice in force, rate and D, and once in n. Both
+   solvers hold n / n0 + BOUNDARY_PART (incompressible_boundary_fades).
    At a free surface half of the neighbours are missing. Held to n <= n0 alone, the outermost particles would
    crowd into one dense row, a skin that the flow below can not stretch: a dead load that slows waves. So with
    solver.surface_lack the solvers hold n / n0 + LACK: LACK follows from |sum F x_ij|, which is great where

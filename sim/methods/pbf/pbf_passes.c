@@ -435,7 +435,7 @@ const Pass pbf_move = MOVE("move", moves[1], "move", "");
 
 /* --- an iteration: number density --- */
 
-/* Change of n / n0 in the step by boundary particles that mirror the way of particle i, as images in walls
+/* MIRRORED: change of n / n0 by boundary particles that mirror the way of particle i, as images in walls
    do. In n boundary particles stand still, but push twice, as images do. Pushes are the least change of
    velocities that keeps n (an orthogonal projection) only with the mirrored way. Else pushes do work, and
    fluid at rest stirs itself beside solids. */
@@ -444,10 +444,13 @@ static float mirrored(const CpuRange *range, size_t i)
     const CpuParticles *p = &range->cpu->now;
     const float dt = range->input->dt, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
     float *const *slope = p->own + SOLID + SOLID_SLOPE, sum = dt * p->own[SOLID_FLOW][i];
+    const float near = fabsf(slope[0][i]) + fabsf(slope[1][i]) + fabsf(slope[2][i]);
     for (int k = 0; k < 3; k++)
         sum -= slope[k][i] * (dt * v[k] + p->own[MOVED + k][i]);
-    const float change = sum / range->cpu->constants->rest_number_density;
-    return fminf(fmaxf(change, -PBF_MIRRORED), PBF_MIRRORED);
+    const float change =
+        near > 0 ? p->own[BOUNDARY_PART][i] + sum / range->cpu->constants->rest_number_density : 0;
+    p->own[MIRRORED][i] = fminf(fmaxf(change, -PBF_MIRRORED), PBF_MIRRORED);
+    return p->own[MIRRORED][i];
 }
 
 /* `later`: the part of the step's first compression left to later steps; of gaps too where pressure pulls.
@@ -510,8 +513,8 @@ const Pass pbf_density = {
     .stage = STAGE_SOLVE,
     .cpu = &density,
     .shader = "pbf/density",
-    .reads = "position velocity id fluid term before inverse_mass moved",
-    .writes = DENSITY_WRITES " before",
+    .reads = "position velocity id fluid term before inverse_mass moved boundary_part",
+    .writes = DENSITY_WRITES " before mirrored",
 };
 
 /* --- settle --- */
@@ -575,6 +578,14 @@ static void rub(const CpuRange *range)
     }
 }
 
+static void keep_boundary_part(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    const float kept = 1 / (1 + range->input->dt * pbf_constants(range->cpu->constants)->boundary_fades);
+    for (size_t i = range->begin; i < range->end; i++)
+        p->own[BOUNDARY_PART][i] = fminf(fmaxf(kept * p->own[MIRRORED][i], -BOUNDARY_MOST), BOUNDARY_MOST);
+}
+
 /* The kick adds all of a step's change to velocities, gravity included; so gravity of the flight is taken out
    first. */
 static void force_body(const CpuRange *range)
@@ -593,6 +604,8 @@ static void force_body(const CpuRange *range)
         p->pressure[i] = pressure_of(range->cpu->constants, p, i);
         p->own[BEFORE][i] = dt > 0 ? p->own[COMPRESSED][i] + 1 : p->own[BEFORE][i];
     }
+    if (p->own[BOUNDARY_PART] && dt > 0)
+        keep_boundary_part(range);
 }
 
 /* By the ways of the whole step. */
@@ -618,8 +631,8 @@ const Pass pbf_force = {
     .cpu = &force,
     .shader = "pbf/force",
     .reads =
-        "position velocity id fluid volume viscosity tension kind moved term compressed solid_slope solid_by",
-    .writes = "velocity acceleration pressure before",
+        "position velocity id fluid volume viscosity tension kind moved term compressed solid_slope solid_by mirrored",
+    .writes = "velocity acceleration pressure before boundary_part",
     .acts_on_solids = true,
     .mirrors = true,
 };
@@ -646,6 +659,10 @@ const ColumnDef pbf_columns[] = {
     {"moved", "m", OWN(MOVED), 3, COLUMN_FLOAT, .flags = COLUMN_SORTED},
     SOLID_COLUMN_ROWS(SOLID, COLUMN_SORTED),
     {"solid_flow", "1/s", OWN(SOLID_FLOW), 1, COLUMN_FLOAT, .needed = incompressible_has_solids},
+    {"mirrored", "", OWN(MIRRORED), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS,
+     .needed = incompressible_has_solids},
+    {"boundary_part", "", OWN(BOUNDARY_PART), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED,
+     .needed = incompressible_has_solids},
     {"viscosity", "Pa s", .at = offsetof(ParticleColumns, viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
      .needed = many_viscous},
     {0},

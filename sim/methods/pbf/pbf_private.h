@@ -19,7 +19,8 @@
      D_i = |sum F x_ij|^2 / m_i + sum F^2 r^2 / m_j   effect of dk_i on n_i
    The whole way of a particle, over dt, changes the velocity.
    A boundary particle is an image of the particle that it meets: sim/methods/shared/incompressible.h. In n it
-   counts once at the step's begin, and mirrors the way over the step. */
+   counts once at the step's begin, and mirrors the way over the step: the solver holds n / n0 + MIRRORED,
+   which begins with BOUNDARY_PART (incompressible_boundary_fades). */
 
 /* Indices of pbf's columns among a particle's own. */
 enum {
@@ -37,6 +38,8 @@ enum {
     MOVED,             /* the way since the step's free flight, m: 3 */
     SOLID = MOVED + 3, /* SolidColumns of sim/methods/shared/incompressible.h */
     SOLID_FLOW = SOLID + SOLID_COLUMNS, /* sum F v_b . x_ib over boundary particles, 1/s */
+    MIRRORED,                           /* change of n / n0 by mirrored ways, with BOUNDARY_PART */
+    BOUNDARY_PART,                      /* what is left of MIRRORED after the last step */
 };
 
 extern const ColumnDef pbf_columns[];

@@ -132,6 +132,20 @@ double incompressible_rest_residual(const Substep *step, double dt, double part,
     return fmin(allowed, fmax(fmax(fmin(part * falls, still), part * courant * courant), CALM_LEAST));
 }
 
+double incompressible_fall(const WorldDef *def)
+{
+    const double *g = def->gravity, h = def->support * def->spacing;
+    return sqrt(h * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]));
+}
+
+/* With 2 to 40 fluid beside solids comes to rest. */
+static const double BOUNDARY_FADES = 4;
+
+double incompressible_boundary_fades(const WorldDef *def)
+{
+    return incompressible_fall(def) / (BOUNDARY_FADES * def->support * def->spacing);
+}
+
 bool incompressible_has_solids(const Constants *constants)
 {
     return constants->solid_count > 0;

@@ -61,6 +61,15 @@ enum {
     SOLID_COLUMNS = SOLID_BY + 3,
 };
 
+/* sqrt(g h), m/s. */
+double incompressible_fall(const WorldDef *def);
+
+/* n counts a boundary particle once, its rate by velocities twice: mirrored. Velocities or ways that keep the
+   rate at 0 change n, and moves back to n0 after each step would put work into fluid at rest beside solids.
+   So solvers hold n / n0 plus a boundary part: the second part of that rate over the steps before, at most
+   BOUNDARY_MOST, fading at this rate, 1/s: within four times sqrt(h / g). */
+double incompressible_boundary_fades(const WorldDef *def);
+
 bool incompressible_has_solids(const Constants *constants);
 
 /* Their rows, from the method's own column `first` on; `by_flags`: of SOLID_BY. */
