@@ -3,6 +3,7 @@
 #include "tests/splat/splat_fixture.h"
 
 #include "render/views/splat/splat_private.h"
+#include "shaders/splat/splat_bindings.h"
 
 enum { W = 64, H = 48, N = W * H };
 
@@ -10,7 +11,8 @@ static const double radius = 0.06, nothing = SPLAT_NOTHING;
 
 typedef struct Map {
     SplatDef splat;
-    double range; /* m */
+    double range;    /* m */
+    bool first_tile; /* the others are not listed */
     Frame frame;
     float before[N];
     float depth[N], normal[3 * N];
@@ -37,6 +39,23 @@ static void keep(float *to, unsigned map, GLenum format, int components)
     free(values);
 }
 
+/* All tiles of a new target are marked. */
+static FluidTiles tiles_create(const Map *map, const Target *target)
+{
+    static const GLuint none = 0;
+    Error error = {0};
+    FluidTiles tiles;
+    if (!fluid_tiles_create(&tiles, &error))
+        fail_msg("%s", error.message);
+    fluid_tiles_update(&tiles, target);
+    if (map->first_tile)
+        glClearNamedBufferSubData(tiles.marks, GL_R32UI, sizeof none,
+                                  (W / TILE * (H / TILE) - 1) * sizeof none, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                                  &none);
+    fluid_tiles_list(&tiles, &map->frame, false);
+    return tiles;
+}
+
 static void run(const Map *map, const Target *target, float depth[N], float normal[3 * N])
 {
     static const float facing[3 * N];
@@ -44,12 +63,14 @@ static void run(const Map *map, const Target *target, float depth[N], float norm
     NarrowRange filter;
     SplatMaps maps = {.nearest = upload_map(target, GL_R32F, GL_RED, map->before),
                       .normal = upload_map(target, GL_RGBA32F, GL_RGB, facing)};
+    FluidTiles tiles = tiles_create(map, target);
     if (!narrow_range_create(&filter, false, &error))
         fail_msg("%s", error.message);
-    const SplatMaps shown = narrow_range_draw(&filter, &maps, &map->frame);
+    const SplatMaps shown = narrow_range_draw(&filter, &maps, &tiles, &map->frame);
     keep(depth, shown.nearest, GL_RED, 1);
     keep(normal, shown.normal, GL_RGB, 3);
     narrow_range_destroy(&filter);
+    fluid_tiles_destroy(&tiles);
     glDeleteTextures(2, (GLuint[]){maps.nearest, maps.normal});
 }
 
@@ -200,6 +221,21 @@ static void a_constant_stays_to_the_bit(void **state)
     assert_memory_equal(map.depth, map.before, sizeof map.before);
 }
 
+/* A software driver pays for every pixel of a pass: the filter runs where there may be fluid. */
+static void only_listed_tiles_are_filtered(void **state)
+{
+    (void)state;
+    Map map = map_create();
+    map.first_tile = true;
+    for (int i = 0; i < N; i++)
+        map.before[i] = 2.345F;
+    filter_map(&map);
+    for (int i = 0; i < N; i++) {
+        const float wanted = i % W < TILE && i / W < TILE ? 2.345F : SPLAT_NOTHING;
+        assert_float_equal(map.depth[i], wanted, 0);
+    }
+}
+
 /* Normal n, through a point 3 m ahead; with the picture's borders. */
 static void planes_stay_planes(void **state)
 {
@@ -293,6 +329,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(as_its_formulas_in_double, no_gl_errors),
         cmocka_unit_test_teardown(a_constant_stays_to_the_bit, no_gl_errors),
+        cmocka_unit_test_teardown(only_listed_tiles_are_filtered, no_gl_errors),
         cmocka_unit_test_teardown(planes_stay_planes, no_gl_errors),
         cmocka_unit_test_teardown(edges_stay, no_gl_errors),
         cmocka_unit_test_teardown(one_surface_is_smoothed, no_gl_errors),

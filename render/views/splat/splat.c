@@ -285,7 +285,7 @@ static void splat_draw(void *state, const ParticleBuffers *particles, const Fram
     if (splat->def.filter == SPLAT_NARROW_RANGE)
         GL_STAGE(frame->timer, STAGE_FILTER)
         {
-            splat->shown = narrow_range_draw(&splat->filter, &splat->shown, frame);
+            splat->shown = narrow_range_draw(&splat->filter, &splat->shown, &splat->sprites.tiles, frame);
         }
     draw_spray(splat, SPRAY_BEHIND, sprite, particles, frame);
     GL_STAGE(frame->timer, STAGE_SHADE)

@@ -139,7 +139,7 @@ SplatMaps splat_panes_draw(SplatPanes *panes, const SplatMaps *maps, const Fluid
 
 static GLuint create_smoothing(const char *label, const char *defines, Error *error)
 {
-    static const char *const stages[] = {"common/screen.vert", "splat/narrow_range.frag", NULL};
+    static const char *const stages[] = {FLUID_TILES_VERTEX, "splat/narrow_range.frag", NULL};
     char all[96];
     snprintf(all, sizeof all, "%s#define TAPS %d\n", defines, NARROW_RANGE_TAPS);
     return program_create(label, stages, all, error);
@@ -147,9 +147,8 @@ static GLuint create_smoothing(const char *label, const char *defines, Error *er
 
 bool narrow_range_create(NarrowRange *filter, bool panes, Error *error)
 {
-    static const char *const normals[] = {"common/screen.vert", "splat/narrow_range_normals.frag", NULL};
+    static const char *const normals[] = {FLUID_TILES_VERTEX, "splat/narrow_range_normals.frag", NULL};
     *filter = (NarrowRange){0};
-    glCreateVertexArrays(1, &filter->screen);
     filter->along = create_smoothing("narrow range", "", error);
     if (filter->along)
         filter->clean = create_smoothing("narrow range, clean-up", "#define CLEAN 1\n", error);
@@ -173,7 +172,6 @@ void narrow_range_destroy(NarrowRange *filter)
     glDeleteProgram(filter->along);
     glDeleteProgram(filter->clean);
     glDeleteProgram(filter->normals);
-    glDeleteVertexArrays(1, &filter->screen);
     *filter = (NarrowRange){0};
 }
 
@@ -193,13 +191,14 @@ static void update_filter(NarrowRange *filter, const Target *target)
 }
 
 /* Smooths `from` into depth[to]; returns depth[to]. */
-static unsigned smooth_along(const NarrowRange *filter, GLuint program, unsigned from, int to, int x, int y)
+static unsigned smooth_along(const NarrowRange *filter, const FluidTiles *tiles, GLuint program,
+                             unsigned from, int to, int x, int y)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, filter->depth_framebuffer[to]);
     glBindTextureUnit(NEAREST_UNIT, from);
     glUseProgram(program);
     glUniform2i(FILTER_AXIS_AT, x, y);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    fluid_tiles_draw(tiles);
     return filter->depth[to];
 }
 
@@ -219,7 +218,8 @@ static void set_filter_uniforms(const NarrowRange *filter, const Frame *frame)
                        0.5F * range); /* filtering brings the rim of a gap of one range nearer */
 }
 
-SplatMaps narrow_range_draw(NarrowRange *filter, const SplatMaps *maps, const Frame *frame)
+SplatMaps narrow_range_draw(NarrowRange *filter, const SplatMaps *maps, const FluidTiles *tiles,
+                            const Frame *frame)
 {
     SplatMaps shown = *maps;
     update_filter(filter, frame->target);
@@ -227,22 +227,18 @@ SplatMaps narrow_range_draw(NarrowRange *filter, const SplatMaps *maps, const Fr
     glViewport(0, 0, frame->width, frame->height);
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
-    glBindVertexArray(filter->screen);
-    glViewport(0, 0, frame->width, frame->height);
     for (int i = 0; i < 2; i++)
         glClearNamedFramebufferfv(filter->depth_framebuffer[i], GL_COLOR, 0, (GLfloat[4]){SPLAT_NOTHING});
-    frame_set_scissor(frame);
     for (int i = 0; i < splat_def(frame->def)->filter_iterations; i++) {
-        shown.nearest = smooth_along(filter, filter->along, shown.nearest, 0, 1, 0);
-        shown.nearest = smooth_along(filter, filter->along, shown.nearest, 1, 0, 1);
+        shown.nearest = smooth_along(filter, tiles, filter->along, shown.nearest, 0, 1, 0);
+        shown.nearest = smooth_along(filter, tiles, filter->along, shown.nearest, 1, 0, 1);
     }
-    shown.nearest = smooth_along(filter, filter->clean, shown.nearest, 0, 0, 0);
+    shown.nearest = smooth_along(filter, tiles, filter->clean, shown.nearest, 0, 0, 0);
     glBindFramebuffer(GL_FRAMEBUFFER, filter->normal_framebuffer);
     glBindTextureUnit(NEAREST_UNIT, shown.nearest);
     glBindTextureUnit(NORMAL_SUM_UNIT, maps->normal);
     glUseProgram(filter->normals);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glDisable(GL_SCISSOR_TEST);
+    fluid_tiles_draw(tiles);
     shown.normal = filter->normal;
     return shown;
 }

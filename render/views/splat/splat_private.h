@@ -30,6 +30,10 @@ typedef struct FluidTiles {
     unsigned target_number; /* number of the target that gave the buffers their size */
 } FluidTiles;
 
+/* Returns false if a shader does not compile; call fluid_tiles_destroy in either case. */
+bool fluid_tiles_create(FluidTiles *tiles, Error *error);
+void fluid_tiles_destroy(FluidTiles *tiles);
+
 /* Makes the buffers again for a new target: then all tiles are marked. */
 void fluid_tiles_update(FluidTiles *tiles, const Target *target);
 
@@ -275,7 +279,6 @@ enum { NARROW_RANGE_TAPS = 32 };
 
 typedef struct NarrowRange {
     unsigned along, clean, normals; /* programs */
-    unsigned screen;                /* vertex array without attributes */
     unsigned target_number;         /* number of the target that gave the maps their size */
     unsigned depth[2];              /* R32F, as SplatMaps.nearest; written alternately */
     unsigned normal;                /* as SplatMaps.normal, but of unit length; 0 where there is no fluid */
@@ -288,8 +291,9 @@ bool narrow_range_create(NarrowRange *filter, bool panes, Error *error);
 void narrow_range_destroy(NarrowRange *filter); /* a zeroed struct is allowed */
 
 /* Returns the maps with `nearest` and `normal` replaced by the filter's own maps, which the filter owns.
-   Reads the frame's splat_def. */
-SplatMaps narrow_range_draw(NarrowRange *filter, const SplatMaps *maps, const Frame *frame);
+   Draws only the listed tiles. Reads the frame's splat_def. */
+SplatMaps narrow_range_draw(NarrowRange *filter, const SplatMaps *maps, const FluidTiles *tiles,
+                            const Frame *frame);
 
 /* Length of fluid on each ray before the first solid, m: the integral along the ray of the fluid's field
    sum V W(r - r_j, h), with V a particle's volume at rest, spacing^3. Inside the fluid the field is 1, so

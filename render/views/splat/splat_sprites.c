@@ -8,8 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Returns false if a shader does not compile; call fluid_tiles_destroy in either case. */
-static bool fluid_tiles_create(FluidTiles *tiles, Error *error)
+bool fluid_tiles_create(FluidTiles *tiles, Error *error)
 {
     static const char *const stages[] = {"splat/tiles_list.comp", NULL};
     *tiles = (FluidTiles){0};
@@ -19,7 +18,7 @@ static bool fluid_tiles_create(FluidTiles *tiles, Error *error)
     return tiles->list != 0;
 }
 
-static void fluid_tiles_destroy(FluidTiles *tiles)
+void fluid_tiles_destroy(FluidTiles *tiles)
 {
     glDeleteProgram(tiles->list);
     glDeleteVertexArrays(1, &tiles->none);
