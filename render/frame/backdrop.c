@@ -11,7 +11,7 @@
 /* The first pass that writes the target: its colour; no depth. The floor is lit by Frame.floor.light.
 
    Without the fluid's shadow the backdrop depends on the camera alone and is kept while the camera stands
-   still. Then a picture costs a copy, and shading of the floor area that the shadow may reach. */
+   still. Then a picture costs a copy, and shading of the floor where the light is not full. */
 
 enum { BACKDROP_KEY_SIZE = 32 };
 
@@ -135,7 +135,7 @@ static void shade_floor(const Backdrop *backdrop, const Frame *frame)
         return;
     glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor.light);
     glUseProgram(backdrop->shadow_program);
-    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    glDrawArrays(GL_TRIANGLES, 0, 6 * FLOOR_CELLS * FLOOR_CELLS);
 }
 
 static void backdrop_draw(void *state, Picture *picture)
