@@ -3,10 +3,10 @@
    sim/box/box.h. */
 #include "sim/methods/wcsph/pair_wcsph.h"
 
-/* Sum of F v_ij . x_ij over the neighbours of the images of group i; adds the part of boundary particles to
-   `beside`. */
+/* Sum of F v_ij . x_ij over the neighbours of the images of group i; with `solids` adds the part of boundary
+   particles to `beside`. */
 SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const NeighbourRange near,
-                          const ImageParticle *image, const ShapeKernel kernel, f8 *beside)
+                          const ImageParticle *image, const ShapeKernel kernel, const bool solids, f8 *beside)
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), least2 = f8_splat(least * least);
@@ -20,7 +20,8 @@ SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const NeighbourRange n
         const f8x4 v = motion(args, j);
         const f8 flow = f * ((ui - v.x) * d.x + (vi - v.y) * d.y + (wi - v.z) * d.z);
         sum += flow;
-        *beside += v.w * flow;
+        if (solids)
+            *beside += v.w * flow;
     }
     return sum;
 }
@@ -98,7 +99,8 @@ SIMD_INLINE void add_found(const PairArgs *args, size_t i, size_t begin, size_t 
     lanes_add(args->own[DENSE], i, begin, end, f8_splat(s->kernel_scale) * found.dense);
 }
 
-SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
+SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
+                            const bool solids)
 {
     const f8 gradient = f8_splat(wcsph_constants(args->constants)->gradient_scale);
     const WallsFar far = out_of_sight(args->constants);
@@ -111,11 +113,11 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
         f8 sum = f8_splat(0), beside = sum;
         for (int m = 1; m <= images.count; m++) {
             const ImageParticle image = images.of[m];
-            sum += image_flow(args, i, near, &image, kernel, &beside) +
-                   image_flow(args, i, self, &image, kernel, &beside);
+            sum += image_flow(args, i, near, &image, kernel, solids, &beside) +
+                   image_flow(args, i, self, &image, kernel, false, &beside);
         }
         lanes_add(args->fx, i, begin, end, -(gradient * sum));
-        if (args->own[BOUNDARY_PART])
+        if (solids)
             lanes_add(args->fy, i, begin, end, -(gradient * beside));
     }
 }
@@ -161,9 +163,17 @@ SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, con
     }
 }
 
+SIMD_INLINE void rate_of(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
+{
+    if (args->own[BOUNDARY_PART])
+        rate_range(args, begin, end, kernel, true);
+    else
+        rate_range(args, begin, end, kernel, false);
+}
+
 PAIR_LOOP(wcsph_images_rate)
 {
-    FOR_KERNEL(args, begin, end, rate_range);
+    FOR_KERNEL(args, begin, end, rate_of);
 }
 
 PAIR_LOOP(wcsph_images_force)
