@@ -101,7 +101,7 @@ class Slice(CommandTest):
         self.export('a.csv', '{}', '--size', '24x16', '--scalar', 'density')
         for name in ('a.csv', 'a.pvd'):
             code, said = self.slosh('export', 'a.h5part', '-o', f'no-{name}', '--slice', '{}')
-            self.assertEqual((code, 'has no pressure; take --scalar density, compression, fluid, born, neighbours, age' in said),
+            self.assertEqual((code, 'has no pressure; take --scalar density, compression, fluid, boundary_mean, born, neighbours, age' in said),
                              (2, True), said)
         self.assertFalse([name for name in os.listdir(self.folder) if name.startswith('no-')])
 
