@@ -30,7 +30,7 @@ static void each_limit_has_its_sentence(void **state)
     assert_true(gl_limits_allow(&promised, &none, &error) && gl_limits_allow(&promised, &all, &error));
     assert_string_equal(error.message, "");
     assert_refused((GlLimits){.compute_blocks = 12},
-                   "this needs 13 storage blocks in a compute shader, and this driver has 8; use that");
+                   "this needs 12 storage blocks in a compute shader, and this driver has 8; use that");
     assert_refused((GlLimits){.vertex_blocks = 5},
                    "this needs 5 storage blocks in a vertex shader, and this driver has 0; use that");
     assert_refused((GlLimits){.bindings = 16},

@@ -86,7 +86,7 @@ static const struct {
     {"splat", "ellipsoids", ellipsoids, 245, 33, 0},
     {"splat", "level", outline, 1900, 240, 0},
     {"volume", "plain", plain, 250, 33, 3},
-    {"volume", "water", water, 310, 42, 3},
+    {"volume", "water", water, 320, 45, 3},
     {"volume", "slice", cut, 100, 12, 3},
     {"slice", "plain", plain, 100, 9, 3},
     {"slice", "flat", flat, 95, 8, 3},
