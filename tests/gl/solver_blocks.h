@@ -50,7 +50,7 @@
               TERM(lid_velocity)),                                                                           \
         BLOCK("sim/mueller/mueller_block.h", MuellerBlock, MUELLER(boundary_fades), MUELLER(boundary_most)), \
         BLOCK("sim/wcsph/wcsph_block.h", WcsphBlock, WCSPH(gradient_scale), WCSPH(diffusion),                \
-              WCSPH(radial_friction), WCSPH(shift_speed), WCSPH(density_return), WCSPH(boundary_relaxes),    \
+              WCSPH(radial_friction), WCSPH(shift_speed), WCSPH(density_return), WCSPH(boundary_fades),      \
               WCSPH(inverse_sound2), WCSPH(kernel_shape), WCSPH(corrected_gradient), WCSPH(any_artificial),  \
               WCSPH(wcsph_fluids[0].tait), WCSPH(wcsph_fluids[0].artificial_viscosity),                      \
               WCSPH(wcsph_fluids[7].artificial_viscosity)),                                                  \

@@ -38,7 +38,7 @@ float density_after(float e, float x)
 // The boundary part of compression after dt at its rate: wcsph_boundary_part_after in sim/methods/wcsph/wcsph_private.h.
 float boundary_part_after(float part, float rate, float dt)
 {
-    float lost = dt * boundary_relaxes;
+    float lost = 0.5 * dt * boundary_fades;
     return ((1.0 - lost) * part + dt * rate) / (1.0 + lost);
 }
 

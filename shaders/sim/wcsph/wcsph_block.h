@@ -40,7 +40,7 @@ UNIFORM_BLOCK(WcsphBlock, METHOD_BLOCK)
     int corrected_gradient; /* sim/methods/wcsph/wcsph_passes.c */
     int any_artificial;     /* some fluid has an artificial viscosity */
     float inverse_sound2;   /* 1 / c^2, s2/m2 */
-    float boundary_relaxes; /* half of the rate at which the boundary part of compression fades, 1/s */
+    float boundary_fades;   /* of the boundary part of compression, 1/s */
     WcsphFluid wcsph_fluids[FLUIDS_MOST];
 }
 BLOCK_END(WcsphBlock);

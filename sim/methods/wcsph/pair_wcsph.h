@@ -56,6 +56,19 @@ typedef struct DensitySlope {
     f8 g0, gx, gy, gz, inverse_layer;
 } DensitySlope;
 
+/* The apparent gravity at the particles of a group, m/s2, by axis; 0 outside of the range. */
+static __attribute__((unused)) void gravity_of(const PairArgs *args, size_t i, size_t begin, size_t end,
+                                               float g[3][LANES])
+{
+    for (size_t k = 0; k < LANES; k++) {
+        float at[3] = {0};
+        if (i + k >= begin && i + k < end)
+            apparent_gravity_at(args->gravity, (float[]){args->x[i + k], args->y[i + k], args->z[i + k]}, at);
+        for (int a = 0; a < 3; a++)
+            g[a][k] = at[a];
+    }
+}
+
 /* Weight of a layer under gravity: per particle of a group rho0 V0^2 g, and 1 over its length times the
    spacing. */
 typedef struct Layers {
@@ -66,18 +79,17 @@ typedef struct Layers {
 static __attribute__((unused)) Layers layers_of(const PairArgs *args, size_t i, size_t begin, size_t end)
 {
     const Constants *s = args->constants;
-    float pull[3][LANES] = {{0}}, inverse[LANES] = {0};
+    float g[3][LANES], pull[3][LANES] = {{0}}, inverse[LANES] = {0};
+    gravity_of(args, i, begin, end, g);
     for (size_t k = 0; k < LANES; k++) {
         if (i + k < begin || i + k >= end)
             continue;
-        const float x[3] = {args->x[i + k], args->y[i + k], args->z[i + k]};
-        float g[3];
-        apparent_gravity_at(args->gravity, x, g);
         const float weight = s->density[args->fluid[i + k]] /
                              (s->rest_number_density * s->rest_number_density); /* rho0 V0^2 */
-        const float layer = weight * s->spacing * sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+        const float layer =
+            weight * s->spacing * sqrtf(g[0][k] * g[0][k] + g[1][k] * g[1][k] + g[2][k] * g[2][k]);
         for (int a = 0; a < 3; a++)
-            pull[a][k] = weight * g[a];
+            pull[a][k] = weight * g[a][k];
         inverse[k] = layer > 0 ? 1 / layer : 0;
     }
     return (Layers){{f8_load(pull[0]), f8_load(pull[1]), f8_load(pull[2])}, f8_load(inverse)};

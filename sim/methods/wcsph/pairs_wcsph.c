@@ -134,17 +134,10 @@ PAIR_LOOP(wcsph_corrected_friction)
    smoothed particle hydrodynamics (SPH) models", 2019. */
 static LaneVector slope_at_rest(const PairArgs *args, size_t i, size_t begin, size_t end)
 {
-    float slope[3][LANES] = {{0}};
-    for (size_t k = 0; k < LANES; k++) {
-        if (i + k < begin || i + k >= end)
-            continue;
-        const float x[3] = {args->x[i + k], args->y[i + k], args->z[i + k]};
-        float g[3];
-        apparent_gravity_at(args->gravity, x, g);
-        for (int a = 0; a < 3; a++)
-            slope[a][k] = wcsph_constants(args->constants)->inverse_sound2 * g[a];
-    }
-    return (LaneVector){f8_load(slope[0]), f8_load(slope[1]), f8_load(slope[2])};
+    const f8 scale = f8_splat(wcsph_constants(args->constants)->inverse_sound2);
+    float g[3][LANES];
+    gravity_of(args, i, begin, end, g);
+    return (LaneVector){scale * f8_load(g[0]), scale * f8_load(g[1]), scale * f8_load(g[2])};
 }
 
 /* Gradient of relative density within a fluid, exact for linear fields: (sum F x x^T)^-1 sum F (e_i - e_j)

@@ -139,7 +139,7 @@ static void wcsph_set(Constants *constants, const WorldDef *def)
     const float crossings = constants->sound_speed / constants->support_radius;
     WcsphBlock own = {.density_return = crossings / times,
                       .inverse_sound2 = 1 / (constants->sound_speed * constants->sound_speed),
-                      .boundary_relaxes = 0.5F * crossings / BOUNDARY_RELAXES};
+                      .boundary_fades = crossings / BOUNDARY_FADES};
     const double reach = 0.5 * def->support * def->spacing, c = def->sound_speed;
     kernel_set(&own, constants, def);
     own.diffusion = (float)(2 * said->delta_sph * c * reach);

@@ -28,7 +28,7 @@
    twice what its part of the rate stores. Where density diffuses, the stored part comes late, and a tank
    above a plate hums for ever. So boundary particles count twice for fast flow, as images of the fluid in
    walls do. The second part fades: the sum of W has none. 2 to 20 times end the hum. */
-#define BOUNDARY_RELAXES 10.0F
+#define BOUNDARY_FADES 10.0F
 
 static inline const WcsphBlock *wcsph_constants(const Constants *constants)
 {
@@ -94,11 +94,11 @@ static inline float wcsph_density_after(float e, float x)
                       : before / (1 - 4 * x * before) - 1; /* the same formula; for x = 0 exactly e */
 }
 
-/* The boundary part of compression after dt (s) at its rate: BOUNDARY_RELAXES; by the middle rule, as
+/* The boundary part of compression after dt (s) at its rate: BOUNDARY_FADES; by the middle rule, as
    accurate as the step. */
 static inline float wcsph_boundary_part_after(const WcsphBlock *own, float part, float rate, float dt)
 {
-    const float lost = dt * own->boundary_relaxes;
+    const float lost = 0.5F * dt * own->boundary_fades;
     return ((1 - lost) * part + dt * rate) / (1 + lost);
 }
 
