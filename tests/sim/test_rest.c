@@ -217,21 +217,22 @@ static WorldDef still_wcsph(void)
 }
 
 /* Densities store the work of solids: for fast flow a boundary particle counts twice in wcsph's rate, as in
-   the force. Counted once, the column above a plate has a standing wave of sound that grows, 0.04 after
-   16 s. */
+   the force. Counted once, the column above a plate has a standing wave of sound that grows. Shifting feeds
+   that wave most: 0.04 after 10 s. */
 static void a_column_above_a_plate_comes_to_rest(void **state)
 {
     (void)state;
     fixture_needs_cpu("many steps");
     WorldDef def = still_wcsph();
+    wcsph_def(&def)->shifting = 0.2;
     fixture_block(&def, 0, -0.5, 0.2, -0.25, 0.5, 0.8, 0.25);
     def.solids[def.solid_count++] =
         (SolidDef){.kind = SOLID_BOX, .centre = {0, 0.1, 0}, .size = {1, 0.2, 1}, .axis = {0, 1, 0}};
     World *world = fixture_world(&def);
-    fixture_step(world, 15000);
+    fixture_step(world, 10000);
     const double speed = rms_over_fall(world, 0.6, 2000);
-    printf("wcsph, a column above a plate, 15 to 17 s: %.4f sqrt(g H)\n", speed);
-    assert_true(speed < 0.003);
+    printf("wcsph, a column above a plate, 10 to 12 s: %.4f sqrt(g H)\n", speed);
+    assert_true(speed < 0.004);
     world_destroy(world);
 }
 
