@@ -79,7 +79,9 @@ const Case case_dam_pressure = {
     .name = "dam_pressure",
     .help = "a collapsing column: its pressure on the wall behind it and on the one that it meets",
     .scene = "scenes/cases/dam_pressure.yaml",
-    .methods = {{.name = "wcsph"},
+    /* A square lattice keeps its order until it breaks, all at once at T = 1.6, and the water rings from then
+       on. Out of order from the start it does not. */
+    .methods = {{.name = "wcsph", .set = {"particles.jitter=0.2"}},
                 {.name = "dfsph",
                  .set = {"solver.rest_viscosity=0"},
                  .tolerance = {0.045, 0.04},
