@@ -84,7 +84,7 @@ static void a_cylinder_needs_three_dimensions(void **state)
     assert_non_null(strstr(error.message, "2D"));
 }
 
-/* A world has its own lists: what the caller does to his later changes nothing. */
+/* A world copies the lists of its definition: later changes to the definition's lists change nothing. */
 static void a_world_keeps_its_lists(void **state)
 {
     (void)state;

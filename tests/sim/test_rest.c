@@ -217,8 +217,8 @@ static WorldDef still_wcsph(void)
 }
 
 /* Densities store the work of solids: for fast flow a boundary particle counts twice in wcsph's rate, as in
-   the force. Counted once, the column above a plate has a standing wave of sound that grows. Shifting feeds
-   that wave most: 0.04 after 10 s. */
+   the force. Counted once, sound grows to a standing wave in the column above a plate, most of all with
+   shifting: 0.04 after 10 s. */
 static void a_column_above_a_plate_comes_to_rest(void **state)
 {
     (void)state;
