@@ -21,17 +21,20 @@ const Key preset_keys[] = {
 const SolverPreset solver_preset_list[] = {
     /* In the plane a square lattice of 2.1 to 2.8 spacings per support radius resists shear. Waves are then 3
        to 7 % too fast, and a tank shaken off its resonance has 55 to 80 % of its motion. At 3 spacings the
-       lattice hardly resists (docs/labbook/validation.md). pbf has its iterations for a whole frame, but
-       fluid is accelerated once a step: at a spacing a step a jet has 0.94 of Bernoulli's speed, at three
-       0.78. A scene that names a step of pbf has that step. The pressure of a blow is about rho v^2, and
-       dfsph tolerates steps up to 0.25 h / sqrt(p / rho): a Courant number above 0.2 boils in hard shaking.
-       Under pressure a lattice of mueller's spiky kernel resists shear. A wave between two fluids then grows
-       by a third too slowly. A lattice of the quintic kernel hardly resists (docs/labbook/validation.md). */
+       lattice hardly resists (docs/labbook/validation.md). In three dimensions 2.22 is just below the
+       lattice's shell at sqrt(5): as many neighbours at rest as with 2.1, and half of its resistance; the
+       other methods gain less. pbf has its iterations for a whole frame, but fluid is accelerated once a
+       step: at a spacing a step a jet has 0.94 of Bernoulli's speed, at three 0.78. A scene that names a step
+       of pbf has that step. The pressure of a blow is about rho v^2, and dfsph tolerates steps up to 0.25 h /
+       sqrt(p / rho): a Courant number above 0.2 boils in hard shaking. Under pressure a lattice of mueller's
+       spiky kernel resists shear. A wave between two fluids then grows by a third too slowly. A lattice of
+       the quintic kernel hardly resists (docs/labbook/validation.md). */
     {"play",
      "the defaults: fast, at large steps",
      {{"particles.support", "3", NULL, 2, NULL},
       {"solver.density_kernel", "quintic", "mueller", 2 + SOLVER_PRESET_SEVERAL_FLUIDS, "particles.support"},
       {"particles.support", "3.1", "dfsph", 2, NULL},
+      {"particles.support", "2.22", "dfsph", 3, NULL},
       {"particles.support", "2.1", "wcsph", 2, NULL},
       {"particles.support", "3", "wcsph", 2, "solver.kernel"},
       {"solver.kernel", "quintic", "wcsph", 2, "particles.support"},
@@ -73,7 +76,7 @@ const SolverPreset solver_preset_list[] = {
       {"solver.viscosity_form", "radial", "wcsph", 0, NULL},
       {"solver.step.mode", "cfl", NULL, 0, NULL},
       {"solver.step.number", "0.3", NULL, 0, NULL},
-      {"particles.support", "2.1", "dfsph", 3, NULL},
+      {"particles.support", "2.22", "dfsph", 3, NULL},
       {"particles.support", "3.1", "dfsph", 2, NULL},
       {"solver.step.number", "0.15", "dfsph", 0, NULL},
       {"solver.surface_lack", "1", "dfsph", 0, NULL},
