@@ -92,6 +92,11 @@ class Validate(ValidateTest):
         self.assertEqual(self.run_it('--full', '--coarse').returncode, 2)
         self.assertEqual(self.run_it('--set', 'no.key=1').returncode, 2)
 
+    def test_steps_longer_than_a_window_have_a_value(self):
+        self.run_it('dam_pressure', '--coarse', '--quiet', '--method', 'wcsph', '--set', 'solver.preset=play', '--json', 'out.json')
+        for c in self.figures():
+            self.assertLess(c['error'], 1, c)
+
     def test_a_case_named_twice_is_one(self):
         done = self.run_it('free_fall', 'collision', 'free_fall', '--coarse', '--quiet', '--json', 'out.json')
         self.assertEqual(done.returncode, 0, done.stderr)

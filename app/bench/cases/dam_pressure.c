@@ -18,7 +18,7 @@ static void sample(CaseRun *run)
         curve_add(&run->column[wall], run->info.time, (double)run->probe[wall]);
 }
 
-/* Mean sensor pressure around T, over rho g a. */
+/* Mean sensor pressure around T, over rho g a; of steps longer than the window the value at T. */
 static double mean_about(const Curve *found, double at, double window)
 {
     double sum = 0, count = 0;
@@ -27,7 +27,7 @@ static double mean_about(const Curve *found, double at, double window)
             sum += found->at[i][1];
             count++;
         }
-    return sum / count;
+    return count > 0 ? sum / count : curve_at(found, at);
 }
 
 /* Mean of |p - reference| over the mean of the reference. */
