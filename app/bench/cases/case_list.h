@@ -34,6 +34,7 @@
     X(poiseuille)                                                                                            \
     X(couette)                                                                                               \
     X(cavity)                                                                                                \
+    X(cavity_400)                                                                                            \
     X(cavity_1000)
 
 #define X(name) extern const Case case_##name;
