@@ -4,8 +4,10 @@
 
 #include "shaders/shared/block.h"
 
-/* Part number for the scale of the residual; part 0 is for the residual. */
+/* Part numbers for the scale of the residual and for the way since the lists were made; part 0 is for the
+   residual. */
 #define EXCESS_OF_SCALE 1
+#define EXCESS_OF_WAY   2
 
 /* Place of a missing column. */
 #define EXCESS_NO_COLUMN 0xffffffffu

@@ -1,36 +1,52 @@
 /* State of an iterating solver on the GPU; sim/gpu/compute/stages.c initializes and reads the block. The
-   first members are the work groups of the solver's passes, of the sums of its residual and of its decision,
-   read by the driver: 0 after the end. */
+   first members are numbers of work groups, read by the driver. Of an iteration: 0 after the end of a round.
+   Of new lists: 0 unless the last renew.comp began a round. */
 #ifndef SLOSH_SOLVE_BLOCK_H
 #define SLOSH_SOLVE_BLOCK_H
 
 #include "shaders/shared/block.h"
 #include "shaders/sim/bindings.h"
 
+#define SOLVE_ROUNDS 4 /* at most: iterations between new lists */
+
+/* As the driver reads them. */
+BLOCK_STRUCT(WorkGroups)
+{
+    uint along;
+    uint rows;
+    uint deep;
+    uint unused;
+}
+BLOCK_END(WorkGroups);
+
 STORAGE_BLOCK(SolveBlock, SOLVE_BUFFER)
 {
-    uint groups_along;
-    uint groups_rows;
-    uint groups_deep;
-    uint sums_along;
-    uint sums_rows;
-    uint sums_deep;
-    uint decisions_along;
-    uint decisions_rows;
-    uint decisions_deep;
-    uint iterations; /* done */
+    WorkGroups pass_groups; /* of an iteration */
+    WorkGroups sum_groups;  /* of an iteration's residual */
+    WorkGroups decision_groups;
+    WorkGroups renewal_groups; /* of new lists */
+    WorkGroups renewal_sum_groups;
+    WorkGroups renewal_decision_groups;
+    uint pass_groups_along; /* within a round */
+    uint sum_groups_along;
+    uint renewal_groups_along;
+    uint iterations; /* done in the round */
     float left_mean; /* residual, as last measured */
     float left_most;
     float tolerance;      /* for the mean */
     float worst;          /* if a particle exceeds `worst`, */
     uint iterations_few;  /* at least so many iterations run */
     uint iterations_most; /* limit of iterations */
-    uint ended;           /* 1: ended */
+    uint ended;           /* 1: the round has ended */
     uint particles;
-    uint scaled; /* 1: the residual is in units of a column's mean */
-    float go;    /* conjugate gradients: length along the direction */
-    float turn;  /* share of the last direction in the new direction */
-    float power; /* product of residual and direction */
+    uint scaled;    /* 1: the residual is in units of a column's mean */
+    float go;       /* conjugate gradients: length along the direction */
+    float turn;     /* share of the last direction in the new direction */
+    float power;    /* product of residual and direction */
+    float way_most; /* of the mean of a column; above, lists are useless */
+    uint rounds_most;
+    uint rounds;                         /* before the present round */
+    uint round_iterations[SOLVE_ROUNDS]; /* of these */
 }
 BLOCK_END(SolveBlock);
 

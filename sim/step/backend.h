@@ -161,6 +161,7 @@ void particles_sums(const ParticleColumns *p, const Constants *constants, size_t
 struct BackendMicro;    /* sim/step/method.h */
 struct Iteration;       /* sim/step/substep.h */
 struct IterationFound;  /* sim/step/substep.h */
+struct Substep;         /* sim/step/substep.h */
 struct Forces;          /* include/slosh/world.h */
 struct ParticleBuffers; /* sim/gpu/particle_buffers.h */
 
@@ -217,11 +218,10 @@ typedef struct Backend {
     Excess (*excess)(void *state, const ColumnDef *column);
     /* Sum of such a column, in the same order. NULL: a backend with `iterate` sums by itself. */
     double (*sum)(void *state, const ColumnDef *column);
-    /* The iterations of substep_iterate on the device. `solve`: the solver's report of the last step. Returns
-       false after a guess: `finish` writes the report. NULL: substep_iterate asks for the
-       excess after each iteration. */
-    bool (*iterate)(void *state, const struct Iteration *iteration, const PassInput *input, StepSolve *solve,
-                    struct IterationFound *found);
+    /* substep_iterate of solver `which` on the device. Returns false after a guess: `finish`
+       writes the report. NULL: substep_iterate asks for the excess after each iteration. */
+    bool (*iterate)(const struct Substep *step, const struct Iteration *iteration, int which,
+                    const PassInput *input, struct IterationFound *found);
     /* v += (acceleration + gravity) dt. */
     void (*kick)(void *state, const float gravity[3], float dt);
     /* Findings of the kicks since the last call or `load`; waits for the kicks. */

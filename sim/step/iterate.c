@@ -70,7 +70,8 @@ static void iterate_here(const Substep *step, const Iteration *iteration, double
     found->left = excess_of(step, iteration->left);
 }
 
-bool iteration_strays(const Iteration *iteration, const IterationFound *found)
+/* True if `renew` is due after the iterations; same rule as renew.comp. */
+static bool strays(const Iteration *iteration, const IterationFound *found)
 {
     return iteration->way && !(found->way.mean <= iteration->way_most) && found->iterations < iteration->most;
 }
@@ -96,13 +97,15 @@ void substep_iterate(const Substep *step, const Iteration *iteration, int which,
     Iteration round = *iteration;
     IterationFound found;
     double done = 0;
+    if (step->backend->iterate) {
+        if (step->backend->iterate(step, iteration, which, &input, &found))
+            iteration_report(iteration, &found, solve);
+        return;
+    }
     for (int renewed = 0;; renewed++) {
-        if (!step->backend->iterate)
-            iterate_here(step, &round, dt, &found);
-        else if (!step->backend->iterate(step->state, &round, &input, solve, &found))
-            return;
+        iterate_here(step, &round, dt, &found);
         done += found.iterations;
-        if (!iteration_strays(&round, &found) || renewed == iteration->renewals)
+        if (!strays(&round, &found) || renewed == iteration->renewals)
             break;
         round.most -= (int)found.iterations;
         round.begun = true;

@@ -133,9 +133,6 @@ typedef struct IterationFound {
    after the step. */
 void substep_iterate(const Substep *step, const Iteration *iteration, int which, double dt);
 
-/* True if `renew` is due after the iterations. */
-bool iteration_strays(const Iteration *iteration, const IterationFound *found);
-
 /* Writes the report of a solver that has ended. */
 void iteration_report(const Iteration *iteration, const IterationFound *found, StepSolve *solve);
 

@@ -168,6 +168,9 @@ static bool take_step(World *world, StageClock *clock, bool guesses, Substep *st
     return true;
 }
 
+/* Guesses of a step; then the step waits for its solvers. */
+enum { GUESSES = 4 };
+
 bool world_substep(World *world, StageClock *clock, Error *error)
 {
     Substep step;
@@ -180,9 +183,9 @@ bool world_substep(World *world, StageClock *clock, Error *error)
     }
     if (!begin_step(world, &marked, error) || !take_step(world, clock, marked, &step, &good, error))
         return false;
-    if (!good) {
+    for (int wrong = 1; !good; wrong++) {
         sentinel_again(world);
-        if (!take_step(world, clock, false, &step, &good, error))
+        if (!take_step(world, clock, wrong < GUESSES, &step, &good, error))
             return false;
     }
     if (world->bodies)

@@ -19,7 +19,7 @@ bool decide(float mean, float greatest)
     if (iterations < iterations_most && far)
         return true;
     ended = 1u;
-    groups_along = sums_along = decisions_along = 0u;
+    pass_groups.along = sum_groups.along = decision_groups.along = 0u;
     return false;
 }
 
@@ -36,7 +36,7 @@ float scale_of(float sum) { return scaled == 0u || sum == 0.0 ? 1.0 : float(part
 
 void main()
 {
-    uint own = gl_LocalInvocationID.x, parts = sums_along;
+    uint own = gl_LocalInvocationID.x, parts = sum_groups_along;
     vec4 found = vec4(0);
     scales[own] = 0.0;
     for (uint k = own; k < parts; k += 64u) {

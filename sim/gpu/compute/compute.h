@@ -3,6 +3,7 @@
 #ifndef SIM_GPU_COMPUTE_COMPUTE_H
 #define SIM_GPU_COMPUTE_COMPUTE_H
 
+#include "shaders/sim/solve_block.h"
 #include "sim/gpu/particle_buffers.h"
 #include "sim/step/backend.h"
 #include "sim/step/substep.h"
@@ -14,8 +15,7 @@ enum {
     COMPUTE_LAYER = 4096,
     COMPUTE_GAUGE_GROUPS = 64,
     COMPUTE_EXCESS_GROUPS_MOST = 512,
-    COMPUTE_GUESS_AFTER = 4, /* steps in which a guess would have been right */
-    COMPUTE_ALONG = 65535,   /* work groups per row */
+    COMPUTE_ALONG = 65535, /* work groups per row */
     COMPUTE_NAMED = 19,
     COMPUTE_BUFFERS = METHOD_BUFFERS_MAX + 4, /* of the method, and a buffer per term */
     COMPUTE_DEFINES_MAX = 4096
@@ -65,6 +65,7 @@ typedef struct ComputeScratch {
     X(ENERGY, "compute/energy")                                                                              \
     X(EXCESS, "compute/excess")                                                                              \
     X(DECIDE, "compute/decide")                                                                              \
+    X(RENEW, "compute/renew")                                                                                \
     X(SHOW, "compute/show")                                                                                  \
     X(BOUNDARY_BIN, "compute/boundary_bin")                                                                  \
     X(BOUNDARY_PLACE, "compute/boundary_place")                                                              \
@@ -121,19 +122,33 @@ typedef struct ComputeForces {
     struct Forces *to; /* NULL: not requested */
 } ComputeForces;
 
+/* Expected iterations of a solver's rounds, plus 1: fades from step to step, at least the need of the last
+   step. Below 1: no round. */
+typedef struct ComputeBudget {
+    double rounds[SOLVE_ROUNDS];
+} ComputeBudget;
+
 /* Solvers of a step, without buffers if no pass iterates. */
 typedef struct ComputeSolves {
-    Mailbox found; /* of each solver SolveBlock, then parts of `way` and `left` */
-    int guessed;   /* solvers with a guessed end; the iterations and the report of each */
+    Mailbox found; /* of each solver SolveBlock, then parts of `left` */
+    ComputeBudget budgets[SOLVES_MAX];
+    int guessed; /* solvers with a guessed end; the iterations, the number and the report of each */
     struct {
         Iteration of;
+        int which;
         StepSolve *to;
     } guess[SOLVES_MAX];
-    bool may_guess; /* in this step */
-    bool missed;    /* a guess was wrong in this step, or would have been */
-    int right;      /* consecutive steps in which all guesses were right, or would have been */
-    int needed;     /* further steps before the next guess: doubles with each wrong guess */
+    bool may_guess;        /* in this step */
+    int wider;             /* wrong guesses of the step: each doubles the batch */
+    uint64_t right, wrong; /* steps with guesses since the start */
 } ComputeSolves;
+
+/* Passes with a number of work groups from SolveBlock. */
+typedef enum ComputeDecided {
+    DECIDED_NONE,
+    DECIDED_ITERATION, /* passes and decision of an iteration */
+    DECIDED_RENEWAL    /* new lists, and the first decision of a round */
+} ComputeDecided;
 
 typedef struct Compute {
     const Constants *constants;
@@ -161,8 +176,7 @@ typedef struct Compute {
     float longest;                        /* longest dt of the kicks since the watch was read, s */
     unsigned solve, parts;                /* SolveBlock, ExcessPart per group; 0: no pass iterates */
     ComputeSolves solves;
-    bool decided;   /* passes of a solver take their number of work groups from
-                       SolveBlock */
+    ComputeDecided decided;
     Mailbox gauge;  /* GaugePart per group; none before the first `gauge` */
     Mailbox energy; /* energy.comp: sums per group; none before the first */
     size_t gauged;  /* particles in the last gauge */
@@ -349,7 +363,7 @@ size_t compute_drain(void *state, const Fill *regions, int count);
 void compute_grid(void *state);
 void compute_drift(void *state, const BoxStep *step);
 void compute_pass(void *state, const Pass *pass, const PassInput *input);
-bool compute_iterate(void *state, const Iteration *iteration, const PassInput *input, StepSolve *solve,
+bool compute_iterate(const Substep *step, const Iteration *iteration, int which, const PassInput *input,
                      IterationFound *found);
 void compute_guess(void *state);
 void compute_kick(void *state, const float gravity[3], float dt);

@@ -6,7 +6,6 @@
 #include "shaders/sim/exact_shapes_block.h"
 #include "shaders/sim/mesh_block.h"
 #include "shaders/sim/solid_steps_block.h"
-#include "shaders/sim/solve_block.h"
 #include "sim/gpu/gl.h"
 
 #include <assert.h>
@@ -181,11 +180,30 @@ static void bind_blocks(Compute *c)
 /* Offset in SolveBlock of a solver's number of work groups; -1: the caller's number counts. */
 static GLintptr decided_at(const Compute *c, ComputePass pass)
 {
-    return !c->decided              ? -1
-           : pass >= COMPUTE_METHOD ? (GLintptr)offsetof(SolveBlock, groups_along)
-           : pass == COMPUTE_EXCESS ? (GLintptr)offsetof(SolveBlock, sums_along)
-           : pass == COMPUTE_DECIDE ? (GLintptr)offsetof(SolveBlock, decisions_along)
-                                    : -1;
+    const bool renews = c->decided == DECIDED_RENEWAL;
+    if (c->decided == DECIDED_NONE)
+        return -1;
+    if (pass == COMPUTE_EXCESS)
+        return (GLintptr)(renews ? offsetof(SolveBlock, renewal_sum_groups)
+                                 : offsetof(SolveBlock, sum_groups));
+    if (pass == COMPUTE_DECIDE)
+        return (GLintptr)(renews ? offsetof(SolveBlock, renewal_decision_groups)
+                                 : offsetof(SolveBlock, decision_groups));
+    if (renews)
+        return offsetof(SolveBlock, renewal_groups);
+    return pass >= COMPUTE_METHOD ? (GLintptr)offsetof(SolveBlock, pass_groups) : -1;
+}
+
+/* Dispatches the groups, or the number in SolveBlock: for a renewal the largest number of any pass. */
+static void dispatch_decided(Compute *c, ComputePass pass, size_t groups)
+{
+    const GLintptr decided = decided_at(c, pass);
+    if (decided < 0) {
+        dispatch(groups);
+        return;
+    }
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, c->solve);
+    glDispatchComputeIndirect(decided);
 }
 
 /* True if particles stay as they are. */
@@ -198,15 +216,10 @@ static bool only_reads(ComputePass pass)
 void compute_run(Compute *c, ComputePass pass, size_t count)
 {
     c->summed &= only_reads(pass);
-    const GLintptr decided = decided_at(c, pass);
     const bool watched = pass == COMPUTE_KICK || pass == COMPUTE_DRIFT;
     bind_blocks(c);
     glUseProgram(c->program[pass]);
-    if (decided >= 0) {
-        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, c->solve);
-        glDispatchComputeIndirect(decided);
-    } else
-        dispatch((count + COMPUTE_GROUP - 1) / COMPUTE_GROUP);
+    dispatch_decided(c, pass, (count + COMPUTE_GROUP - 1) / COMPUTE_GROUP);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | (watched ? GL_UNIFORM_BARRIER_BIT : 0));
 }
 
@@ -325,7 +338,7 @@ static void run_blocks(Compute *c, ComputePass pass, unsigned values, unsigned t
     BIND([SCAN_VALUES_STORAGE] = values, [SCAN_TOTALS_STORAGE] = totals);
     glUseProgram(c->program[pass]);
     glUniform1ui(SCAN_SIZE_AT, (GLuint)size);
-    dispatch(blocks_of(size));
+    dispatch_decided(c, pass, blocks_of(size));
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

@@ -86,6 +86,7 @@ bool compute_pass_named(const Constants *s, ComputePass pass)
         return s->solid_count > 0;
     case COMPUTE_EXCESS:
     case COMPUTE_DECIDE:
+    case COMPUTE_RENEW:
         return compute_iterates(s);
     case COMPUTE_GUIDE:
     case COMPUTE_EMIT_MARK:
