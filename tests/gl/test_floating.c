@@ -69,23 +69,35 @@ static void what_is_saved_goes_on_the_same(void **state)
     world_destroy(later);
 }
 
-/* Questions for forces in each step leave no trace, and a save before changes no answer. */
+static void save(World *world)
+{
+    WorldState state = {0};
+    Error error;
+    if (!world_save(world, &state, &error))
+        fail_msg("%s", error.message);
+    world_state_free(&state);
+}
+
+/* Questions for forces in each step leave no trace. A save before, which takes late forces, changes no
+ * answer. */
 static void questions_leave_no_trace(void **state)
 {
+    enum { STEPS = 3 }; /* sound for so long */
     (void)state;
     for (int m = 0; m < 4; m++) {
-        const WorldDef def = floating_def(fixture_method_names[m]);
+        WorldDef def = floating_def(fixture_method_names[m]);
         Error error = {0};
+        def.fluids[0].velocity[0] = 10; /* through a wall, which pushes behind the kick */
         World *asked = world_on(def, "compute"), *saved = world_on(def, "compute");
         assert_true(world_enable_forces(asked, &error) && world_enable_forces(saved, &error));
-        for (int k = 0; k < 10; k++) {
+        for (int k = 0; k < STEPS; k++) {
             Forces one, two;
             substeps(asked, 1);
             substeps(saved, 1);
             world_forces(asked, &one);
-            const uint64_t hash = world_hash(saved);
+            save(saved);
             world_forces(saved, &two);
-            assert_true(world_hash(asked) == hash);
+            assert_true(world_hash(asked) == world_hash(saved));
             assert_true(one.seconds > 0 && fabs(one.solid[0].force[1]) > 0);
             assert_memory_equal(&one, &two, sizeof one);
         }
