@@ -1,9 +1,10 @@
-// Finds the particles that may be visible, and the picture's tiles that their sprites touch. Per 32 particles: a word of bits for
-// the visible list, a word for the blend list, and the numbers of both.
+// Finds the particles that may be visible, and the picture's tiles that their sprites touch. Per 32 particles: a word of bits and
+// a number for the visible list, and for the blend list (splat/cull_kept.glsl).
 #include "common/frame.glsl"
 #include "common/particles.glsl"
 #include "common/ball.glsl"
 #include "splat/cull.glsl"
+#include "splat/cull_kept.glsl"
 #include "common/sphere.glsl"
 #include "splat/splat_body.glsl"
 #include "shaders/splat/splat_bindings.h"
@@ -12,7 +13,7 @@ layout(local_size_x = 64) in;
 layout(location = CULL_COUNT_AT) uniform uint count;
 layout(location = EPS_AT) uniform float eps; // m
 layout(location = INVERT_AT) uniform uint invert; // 1: list the hidden particles instead
-layout(std430, binding = CULL_KEPT_STORAGE) writeonly buffer Kept { uvec4 kept[]; }; // bits of visible, of blended particles; numbers of both
+layout(std430, binding = CULL_KEPT_STORAGE) writeonly buffer Kept { uint kept[]; };
 layout(std430, binding = TILE_MARKS_STORAGE) writeonly buffer Marks { uint tile_mark[]; }; // splat/tiles_list.comp
 
 // x0 x1 y0 y1 of the sprite, pixels; `depth`: nearest depth.
@@ -65,5 +66,9 @@ void main()
             mark_tiles(sprite);
         bits |= uvec2(what & 1u, what >> 1 & 1u) << i;
     }
-    kept[chunk] = uvec4(bits, bitCount(bits));
+    uint chunks = (count + 31u) / 32u;
+    for (uint k = 0u; k < 2u; k++) {
+        kept[KEPT_NUMBER(k) + chunk] = uint(bitCount(bits[k]));
+        kept[KEPT_BITS(k) + chunk] = bits[k];
+    }
 }

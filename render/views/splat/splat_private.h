@@ -88,11 +88,12 @@ unsigned splat_framebuffer_create(const unsigned *maps, int count, const char *l
 typedef enum SplatCullList { CULL_NEAREST, CULL_BLEND, CULL_LISTS } SplatCullList;
 
 typedef struct SplatCull {
-    unsigned occlude, test, sum, list; /* programs */
-    unsigned limit;                    /* program, made by splat_cull_create_limit */
-    unsigned map, rows;                /* buffer: a depth per cell; texture: `map`, four per fetch */
-    unsigned marks;             /* buffer of FluidTiles: tiles that listed particles touch are marked */
-    unsigned visible, commands; /* see cull_test.comp, cull_sum.comp */
+    unsigned occlude, test, list; /* programs */
+    unsigned limit;               /* program, made by splat_cull_create_limit */
+    PrefixSums sums;
+    unsigned map, rows;      /* buffer: a depth per cell; texture: `map`, four per fetch */
+    unsigned marks;          /* buffer of FluidTiles: tiles that listed particles touch are marked */
+    unsigned kept, commands; /* see cull_kept.glsl, cull_list.comp */
     unsigned lists[CULL_LISTS];
     size_t cells, capacity; /* capacity of `map` in cells; capacity of `lists` in particles */
 } SplatCull;

@@ -84,8 +84,9 @@ static bool splat_cull_create(SplatCull *cull, const char *body, Error *error)
     work_buffer_remake(&cull->commands, (size_t)CULL_LISTS * COMMAND_SIZE, "cull commands");
     cull->occlude = compile_cull("cull occlude", "splat/cull_occlude.comp", body, error);
     cull->test = cull->occlude ? compile_cull("cull test", "splat/cull_test.comp", body, error) : 0;
-    cull->sum = cull->test ? compile_cull("cull sum", "splat/cull_sum.comp", NULL, error) : 0;
-    cull->list = cull->sum ? compile_cull("cull list", "splat/cull_list.comp", NULL, error) : 0;
+    cull->list = cull->test && prefix_sums_create(&cull->sums, error)
+                     ? compile_cull("cull list", "splat/cull_list.comp", NULL, error)
+                     : 0;
     return cull->list != 0;
 }
 
@@ -99,12 +100,12 @@ static void splat_cull_destroy(SplatCull *cull)
 {
     glDeleteProgram(cull->occlude);
     glDeleteProgram(cull->test);
-    glDeleteProgram(cull->sum);
     glDeleteProgram(cull->list);
     glDeleteProgram(cull->limit);
     glDeleteTextures(1, &cull->rows);
     glDeleteBuffers(CULL_LISTS, cull->lists);
-    glDeleteBuffers(3, (GLuint[]){cull->map, cull->visible, cull->commands});
+    glDeleteBuffers(3, (GLuint[]){cull->map, cull->kept, cull->commands});
+    prefix_sums_destroy(&cull->sums);
     *cull = (SplatCull){0};
 }
 
@@ -130,7 +131,8 @@ static void reserve_lists(SplatCull *cull, size_t count, size_t cells)
     }
     if (count > cull->capacity) {
         cull->capacity = work_capacity(cull->capacity, count);
-        work_buffer_remake(&cull->visible, chunks_of(cull->capacity) * 4 * sizeof(GLuint), "cull kept");
+        work_buffer_remake(&cull->kept, (4 * (size_t)chunks_of(cull->capacity) + 1) * sizeof(GLuint),
+                           "cull kept");
         for (int i = 0; i < CULL_LISTS; i++)
             work_buffer_remake(&cull->lists[i], cull->capacity * sizeof(GLuint), "cull list");
     }
@@ -184,13 +186,11 @@ static void make_map(SplatCull *cull, const CullGrid *grid, const ParticleBuffer
 
 static void make_lists(SplatCull *cull, size_t count, unsigned vertices)
 {
-    glUseProgram(cull->sum);
+    prefix_sums_run(&cull->sums, cull->kept, 2 * (size_t)chunks_of(count) + 1);
+    glUseProgram(cull->list);
     glUniform1ui(CHUNKS_AT, chunks_of(count));
     glUniform1ui(VERTICES_AT, vertices);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_COMMANDS_STORAGE, cull->commands);
-    work_run(1);
-    glUseProgram(cull->list);
-    glUniform1ui(CHUNKS_AT, chunks_of(count));
     glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, NEAREST_LIST_STORAGE, CULL_LISTS, cull->lists);
     work_run(chunks_of(count));
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
@@ -205,7 +205,7 @@ static void test(SplatCull *cull, const CullGrid *grid, const ParticleBuffers *p
     glUniform1ui(CULL_COUNT_AT, (GLuint)particles->count);
     glUniform1f(EPS_AT, eps);
     glUniform1ui(INVERT_AT, hidden);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_KEPT_STORAGE, cull->visible);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_KEPT_STORAGE, cull->kept);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, TILE_MARKS_STORAGE, cull->marks);
     work_run(chunks_of(particles->count));
     make_lists(cull, particles->count, vertices);

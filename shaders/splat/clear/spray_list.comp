@@ -9,7 +9,7 @@
 
 layout(location = VERTICES_AT) uniform uint vertices; // vertices per particle
 layout(std430, binding = NEAREST_LIST_STORAGE) writeonly buffer List { uint list[]; };
-layout(std430, binding = CULL_COMMANDS_STORAGE) writeonly buffer Commands { uint command[8]; }; // as in splat/cull_sum.comp
+layout(std430, binding = CULL_COMMANDS_STORAGE) writeonly buffer Commands { uint command[8]; }; // as in splat/cull_list.comp
 
 bool chosen(uint i) { return is_alone(i); }
 
