@@ -8,6 +8,14 @@ layout(location = 0) flat out ivec2 cell;  // the sample of the centre
 layout(location = 1) flat out vec4 disc;   // position in the sample, 0 .. 1; (distance / h)^2; V times the kernel's peak
 layout(location = 2) flat out vec2 scalar; // value; 1 if NaN
 
+// True if the plane is out of the ball's reach, in single precision: a GPU may need a hundred times as long for doubles.
+bool far_away(vec3 place)
+{
+    vec3 corner = vec3(plane_corner), normal = vec3(plane_normal);
+    float rounding = 1e-6 * dot(abs(place) + abs(corner), abs(normal));
+    return abs(dot(place - corner, normal)) > 1.0 + rounding;
+}
+
 void main()
 {
     uint index = uint(gl_VertexID) >> 2;
@@ -18,6 +26,8 @@ void main()
     cell = ivec2(0);
     disc = vec4(0.0);
     scalar = vec2(0.0);
+    if (far_away(place))
+        return;
     dvec3 from_corner = dvec3(place) - plane_corner;
     float away = float(dot(from_corner, plane_normal)), left = 1.0 - away * away;
     if (is_nan(vec4(place, volume)) || left <= 0.0 || volume <= 0.0 || volume > 1e30)
