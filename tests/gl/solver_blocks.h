@@ -6,27 +6,32 @@
 #include "shaders/sim/dfsph/dfsph_block.h"
 #include "shaders/sim/exact_shapes_block.h"
 #include "shaders/sim/flow_block.h"
+#include "shaders/sim/flow_counts_block.h"
 #include "shaders/sim/mesh_block.h"
 #include "shaders/sim/mueller/mueller_block.h"
 #include "shaders/sim/pbf/pbf_block.h"
 #include "shaders/sim/solid_steps_block.h"
+#include "shaders/sim/solve_block.h"
 #include "shaders/sim/step_block.h"
 #include "shaders/sim/term_block.h"
 #include "shaders/sim/watch_block.h"
 #include "shaders/sim/wcsph/wcsph_block.h"
 
-#define CONSTANT(member) MEMBER(ConstantBlock, member)
-#define STEP(member)     MEMBER(StepBlock, member)
-#define TERM(member)     MEMBER(TermBlock, member)
-#define MUELLER(member)  MEMBER(MuellerBlock, member)
-#define WCSPH(member)    MEMBER(WcsphBlock, member)
-#define DFSPH(member)    MEMBER(DfsphBlock, member)
-#define PBF(member)      MEMBER(PbfBlock, member)
-#define WATCH(member)    MEMBER(WatchBlock, member)
-#define STEPS(member)    MEMBER(SolidStepsBlock, member)
-#define SHAPE(member)    MEMBER(ExactShapesBlock, member)
-#define FLOW(member)     MEMBER(FlowBlock, member)
-#define MESH(member)     MEMBER(MeshBlock, member)
+#define CONSTANT(member)  MEMBER(ConstantBlock, member)
+#define STEP(member)      MEMBER(StepBlock, member)
+#define TERM(member)      MEMBER(TermBlock, member)
+#define MUELLER(member)   MEMBER(MuellerBlock, member)
+#define WCSPH(member)     MEMBER(WcsphBlock, member)
+#define DFSPH(member)     MEMBER(DfsphBlock, member)
+#define PBF(member)       MEMBER(PbfBlock, member)
+#define WATCH(member)     MEMBER(WatchBlock, member)
+#define STEPS(member)     MEMBER(SolidStepsBlock, member)
+#define SHAPE(member)     MEMBER(ExactShapesBlock, member)
+#define FLOW(member)      MEMBER(FlowBlock, member)
+#define MESH(member)      MEMBER(MeshBlock, member)
+#define COUNTS(member)    MEMBER(FlowCounts, member)
+#define SOLVE(member)     MEMBER(SolveBlock, member)
+#define GROUPS_OF(member) SOLVE(member.along), SOLVE(member.rows), SOLVE(member.deep), SOLVE(member.unused)
 
 #define SOLVER_BLOCKS                                                                                        \
     BLOCK("sim/constant_block.h", ConstantBlock, CONSTANT(support), CONSTANT(inverse_support),               \
@@ -80,6 +85,14 @@
               FLOW(drains[0].low), FLOW(drains[0].ball), FLOW(drains[0].high), FLOW(drains[0].radius2),      \
               FLOW(drains[7].radius2), FLOW(guides[0].centre), FLOW(guides[0].radius),                       \
               FLOW(guides[0].direction), FLOW(guides[0].depth), FLOW(guides[0].velocity),                    \
-              FLOW(guides[0].fluid), FLOW(guides[31].fluid))
+              FLOW(guides[0].fluid), FLOW(guides[31].fluid)),                                                \
+        BLOCK("sim/flow_counts_block.h", FlowCounts, COUNTS(there), COUNTS(born), COUNTS(flowed[0])),        \
+        BLOCK("sim/solve_block.h", SolveBlock, GROUPS_OF(pass_groups), GROUPS_OF(sum_groups),                \
+              GROUPS_OF(decision_groups), GROUPS_OF(renewal_groups), GROUPS_OF(renewal_sum_groups),          \
+              GROUPS_OF(renewal_decision_groups), SOLVE(pass_groups_along), SOLVE(sum_groups_along),         \
+              SOLVE(renewal_groups_along), SOLVE(iterations), SOLVE(left_mean), SOLVE(left_most),            \
+              SOLVE(tolerance), SOLVE(worst), SOLVE(iterations_few), SOLVE(iterations_most), SOLVE(ended),   \
+              SOLVE(particles), SOLVE(scaled), SOLVE(go), SOLVE(turn), SOLVE(power), SOLVE(way_most),        \
+              SOLVE(rounds_most), SOLVE(rounds), SOLVE(round_iterations[0]))
 
 #endif

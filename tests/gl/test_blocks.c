@@ -77,7 +77,7 @@ static const Block blocks[] = {
           SLICE(plane_peak)),
 };
 
-/* A block of std140 is active, with all members, where no shader reads any of them. */
+/* A block of std140 or std430 is active, with all members, where no shader reads any of them. */
 static GLuint program_with(const char *path)
 {
     static const char end[] = "layout(local_size_x = 1) in;\nvoid main() {}\n";
@@ -122,21 +122,26 @@ static const Member *find_member(const Block *block, const char *name)
     return NULL;
 }
 
+/* Of a uniform block, or of a storage block. */
+typedef struct Interface {
+    GLenum block, member;
+} Interface;
+
 /* The number of the table's members known to the driver; all further members of the driver are errors. */
-static size_t compare_members(const Block *block, GLuint program, GLuint resource)
+static size_t compare_members(const Block *block, GLuint program, Interface interface, GLuint resource)
 {
     enum { VARIABLES_MAX = 256 };
     const GLenum what = GL_ACTIVE_VARIABLES;
-    const GLint count = ask(program, GL_UNIFORM_BLOCK, resource, GL_NUM_ACTIVE_VARIABLES);
+    const GLint count = ask(program, interface.block, resource, GL_NUM_ACTIVE_VARIABLES);
     GLint variables[VARIABLES_MAX];
     size_t found = 0;
     assert_in_range(count, 1, VARIABLES_MAX);
-    glGetProgramResourceiv(program, GL_UNIFORM_BLOCK, resource, 1, &what, count, NULL, variables);
+    glGetProgramResourceiv(program, interface.block, resource, 1, &what, count, NULL, variables);
     for (GLint i = 0; i < count; i++) {
         char name[64] = "";
-        glGetProgramResourceName(program, GL_UNIFORM, (GLuint)variables[i], sizeof name, NULL, name);
+        glGetProgramResourceName(program, interface.member, (GLuint)variables[i], sizeof name, NULL, name);
         const Member *member = find_member(block, name);
-        const GLint offset = ask(program, GL_UNIFORM, (GLuint)variables[i], GL_OFFSET);
+        const GLint offset = ask(program, interface.member, (GLuint)variables[i], GL_OFFSET);
         if (member && member->offset != (size_t)offset)
             fail_msg("%s.%s is at %zu in C, at %d in GLSL", block->name, name, member->offset, offset);
         if (!member && !is_later_element(name))
@@ -152,10 +157,15 @@ static void blocks_are_the_same_in_c_and_glsl(void **state)
     (void)state;
     for (const Block *block = blocks; block < blocks + sizeof blocks / sizeof *blocks; block++) {
         const GLuint program = program_with(block->path);
-        const GLuint resource = glGetProgramResourceIndex(program, GL_UNIFORM_BLOCK, block->name);
+        Interface interface = {GL_UNIFORM_BLOCK, GL_UNIFORM};
+        GLuint resource = glGetProgramResourceIndex(program, interface.block, block->name);
+        if (resource == GL_INVALID_INDEX) {
+            interface = (Interface){GL_SHADER_STORAGE_BLOCK, GL_BUFFER_VARIABLE};
+            resource = glGetProgramResourceIndex(program, interface.block, block->name);
+        }
         assert_true(resource != GL_INVALID_INDEX);
-        assert_int_equal(compare_members(block, program, resource), block->count);
-        const size_t size = (size_t)ask(program, GL_UNIFORM_BLOCK, resource, GL_BUFFER_DATA_SIZE);
+        assert_int_equal(compare_members(block, program, interface, resource), block->count);
+        const size_t size = (size_t)ask(program, interface.block, resource, GL_BUFFER_DATA_SIZE);
         assert_in_range(size, block->size - PADDING, block->size);
         glDeleteProgram(program);
     }
