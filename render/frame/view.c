@@ -126,7 +126,7 @@ const Key view_frame_keys[] = {
     BOOLEAN("view.floor", L, AT(floor), "draw the floor below the box"),
     COLOR("view.background", L, AT(background), NULL, "sRGB: [red, green, blue], each 0 to 1"),
     BOOLEAN("view.caustics", L, AT(caustics), "light patterns on the floor below clear fluid; never in a draft"),
-    NUMBER("view.foam", L, "", 0, 10, AT(foam), "white foam where clear fluid traps air: 1 where it does so at metres a second, 2 at half the speed, 0 none; never in a draft"),
+    NUMBER("view.foam", L, "", 0, 10, AT(foam), "white foam where clear fluid is turbulent: 1 where it is so at metres a second, 2 at half the speed, 0 none; never in a draft"),
     {.path = "view.camera", .type = KEY_MAPPING, .unit = "", .offset = KEY_NOWHERE, .aux = AT(camera_auto),
      .help = "the camera; without it, one that shows the whole box"},
     VEC3("view.camera.from", R | L, "m", -1e7, 1e7, AT(camera.from), "the eye, in the world's frame"),

@@ -15,7 +15,7 @@ _Static_assert(SCALAR_COUNT <= 64 && VECTOR_COUNT <= 32, "a bit for each in Part
    `carried`: the scalar `carries`. `three`: three scalars from `threes` on. frame_velocity and frame_turn:
    velocity and turning of the box, in its axes. With `near_too`: `gradient` (of the velocity) and `slope`
    (of the scalar read); `near`: number of neighbours in the support radius; `trapped`: speed of the
-   neighbours' approach. */
+   neighbours' approach. Foam has `sums` over neighbours, and `filled`: the fluid fraction of the kernel. */
 typedef struct DerivedFormula {
     const char *value;   /* NULL: already in the state */
     unsigned attributes; /* PARTICLE_VELOCITY, or 0 */
@@ -67,8 +67,8 @@ static const DerivedFormula vector_recipes[VECTOR_COUNT] = {
 };
 
 /* Of derived_foam: two numbers per particle. */
-static const DerivedFormula foam_recipe = {"foam_inputs(trapped, filled)", PARTICLE_VELOCITY, NOTHING, true,
-                                           .meets = true};
+static const DerivedFormula foam_recipe = {"foam_inputs(turbulence_of(sums, gradient), filled)",
+                                           PARTICLE_VELOCITY, NOTHING, .near_too = true};
 
 /* ---- inputs ---- */
 
@@ -163,7 +163,7 @@ static bool follow(Derived *derived, unsigned *program, const DerivedFormula *re
     if (!recipe->value)
         return true;
     snprintf(defines, sizeof defines, "#define VALUE_TYPE %s\n#define VALUE %s\n%s%s", type, recipe->value,
-             recipe == &foam_recipe ? "#define NEAR 1\n#define MEETS 1\n#define FOAM 1\n"
+             recipe == &foam_recipe ? "#define NEAR 1\n#define FOAM 1\n"
              : recipe->meets        ? "#define NEAR 1\n#define MEETS 1\n"
              : recipe->near_too     ? "#define NEAR 1\n"
                                     : "",
@@ -438,8 +438,6 @@ static ParticleAttribute make_scalar(DerivedJob *making, Scalar scalar)
     if (!reserve(derived, buffer, &derived->scalar_capacity[scalar], making->particles->count, 4,
                  scalar_list[scalar].name))
         return (ParticleAttribute){0};
-    if (recipe->meets)
-        set_walls(program, making);
     return make(making, recipe, program, *buffer, 4);
 }
 

@@ -415,10 +415,12 @@ void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpa
                   ParticleBuffers *particles);
 
 /* Inputs of foam (ParticleWants.foam): two floats per particle with at least the speed `slowest`, m/s, or
-   with `old_foam` above 0; 0 for all others. The first is SCALAR_TRAPPED_AIR, less away from air. The second
-   is the share of old foam that is seen: none away from air, none on a single drop. `old_foam`: a buffer with
-   a float per particle; 0: none. Costs almost nothing if no particle needs sums. Valid until the next call
-   of this function; buffer 0 without a program, velocities or memory. */
+   with `old_foam` above 0; 0 for all others. The first is the turbulence: the speed at which the neighbours
+   leave the linear flow around the particle, m/s, less away from air. The harmonic mean of three directions
+   counts, so that shear, and rows of particles that slide past each other, have little. The second is the
+   share of old foam that is seen: none away from air, none on a single drop. `old_foam`: a buffer with a
+   float per particle; 0: none. Costs almost nothing if no particle needs sums. Valid until the next call of
+   this function; buffer 0 without a program, velocities or memory. */
 ParticleAttribute derived_foam(Derived *derived, const DerivedSpace *space, const ParticleBuffers *particles,
                                double slowest, unsigned old_foam);
 

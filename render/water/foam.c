@@ -124,13 +124,14 @@ const Effect effect_foam_solids = {.name = "foam_solids",
 
 /* ---- life ---- */
 
-/* m/s, at ViewDef.foam 1: speeds where foam starts and is complete. Turbulence of about a metre per second
-   breaks a water surface against weight and tension: Brocchini and Peregrine, The dynamics of strong
-   turbulence at free surfaces, 2001. */
-static const double AIR_FROM = 0.15, AIR_TO = 0.55, SPEED_FROM = 0.2, SPEED_TO = 0.8;
+/* m/s, at ViewDef.foam 1: turbulence and speed where foam starts and is complete. Turbulence of about a
+   metre per second breaks a water surface against weight and tension: Brocchini and Peregrine, The dynamics
+   of strong turbulence at free surfaces, 2001. Turbulence here is of a particle's neighbours alone. In a dam
+   that falls it is below the first number. */
+static const double TURBULENT_FROM = 0.15, TURBULENT_TO = 0.35, SPEED_FROM = 0.2, SPEED_TO = 0.8;
 
-/* Spacings in a box's diagonal. With fewer, neighbours in smooth flow, as in a falling dam, differ by more
-   speed, by strain and by ripples of the particles' rows: the speeds of trapped air grow. */
+/* Spacings in a box's diagonal. With fewer, neighbours in smooth flow differ by more speed, by ripples of
+   the particles' rows: the bounds of turbulence grow. */
 static const double FINE_ENOUGH = 80, MORE_WITH = 1.7 /* power of the spacing */, COARSEST = 3.2;
 
 bool foam_life_create(FoamLife *life, Error *error)
@@ -202,11 +203,11 @@ static double coarse_by(const ParticleBuffers *particles)
 
 void foam_life_update(FoamLife *life, const ParticleBuffers *particles, double foam)
 {
-    const double scale = 1 / foam, air = coarse_by(particles) * scale;
+    const double scale = 1 / foam, least = coarse_by(particles) * scale;
     empty_table(life, particles->count);
     glUseProgram(life->update);
-    glUniform4f(FOAM_SPEEDS_AT, (float)(air * AIR_FROM), (float)(air * AIR_TO), (float)(scale * SPEED_FROM),
-                (float)(scale * SPEED_TO));
+    glUniform4f(FOAM_SPEEDS_AT, (float)(least * TURBULENT_FROM), (float)(least * TURBULENT_TO),
+                (float)(scale * SPEED_FROM), (float)(scale * SPEED_TO));
     glUniform1ui(FOAM_VELOCITY_STRIDE_AT,
                  particle_bind_one(FOAM_VELOCITIES_STORAGE, &particles->velocity, particles->count, 0));
     run_life(life, life->update, particles);

@@ -36,8 +36,8 @@ void foam_life_destroy(FoamLife *life);
 /* Takes a state of at least one particle, in two calls. The first: `amounts` is the rest of the past. */
 void foam_life_recall(FoamLife *life, const ParticleBuffers *particles);
 
-/* The second: `amounts` is the foam. SCALAR_TRAPPED_AIR is the result of derived_foam; there are velocities;
-   `foam` is ViewDef.foam, above 0. */
+/* The second: `amounts` is the foam. The result of derived_foam stands in the place of
+   SCALAR_TRAPPED_AIR; there are velocities; `foam` is ViewDef.foam, above 0. */
 void foam_life_update(FoamLife *life, const ParticleBuffers *particles, double foam);
 
 #endif

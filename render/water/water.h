@@ -42,8 +42,9 @@ extern const Effect effect_caustics;
 /* Foam on clear fluid: white bubbles where the surface breaks. After: Ihmsen, Akinci, Akinci and Teschner,
    Unified spray, foam and bubbles for particle-based fluids, 2012.
 
-   A particle foams if the particle traps air (SCALAR_TRAPPED_AIR) and is fast; both measures are clamped
-   between two speeds, as in the paper. Up to FOAM_BUBBLES bubbles surround such a particle, at offsets
+   A particle foams if the flow around it is turbulent (derived_foam) and if it is fast; both measures are
+   clamped between two speeds, as in the paper. The paper's trapped air is left out: a dam that falls smoothly
+   has it too. Up to FOAM_BUBBLES bubbles surround such a particle, at offsets
    fixed by the particle's id. Unlike the paper, bubbles are not advected on their own: foam moves with the
    particle, and of a picture's foam exp(-t / FOAM_LIFE) is left after a time t of the simulation. So a
    picture's foam depends on the pictures before. The first picture, and one that is earlier than the picture

@@ -15,12 +15,9 @@ layout(location = FRAME_VELOCITY_AT) uniform vec3 frame_velocity; // velocity of
 layout(location = NOW_AT) uniform float now;                      // time of the state, s
 layout(location = FRAME_TURN_AT) uniform vec3 frame_turn;         // angular velocity of the box, in its axes, rad/s
 
-#ifdef MEETS
+#ifdef FOAM
 layout(location = WALLED_LOW_AT) uniform vec3 walled_low; // walls of the box, m; far away: none
 layout(location = WALLED_HIGH_AT) uniform vec3 walled_high;
-#endif
-
-#ifdef FOAM
 layout(location = SLOWEST_AT) uniform float slowest; // m/s: slower particles without foam need no sums
 // Fluid fractions of the kernel: none of the foam is seen, and all; all, and none.
 layout(location = AIR_BOUNDS_AT) uniform vec4 air_bounds;
@@ -33,11 +30,11 @@ bool asked_for(uint i)
     return !slower || (foam_known && old_foam[i] > 0.0);
 }
 
-// Trapped air near air, and the share of old foam that is seen.
-vec2 foam_inputs(float trapped, float filled)
+// Turbulence near air, and the share of old foam that is seen.
+vec2 foam_inputs(float turbulence, float filled)
 {
     float open = 1.0 - smoothstep(air_bounds.z, air_bounds.w, filled);
-    return vec2(trapped * open, smoothstep(air_bounds.x, air_bounds.y, filled) * open);
+    return vec2(turbulence * open, smoothstep(air_bounds.x, air_bounds.y, filled) * open);
 }
 #else
 #define asked_for(i) true
@@ -52,10 +49,12 @@ struct Sums {
     mat3 moment;   // sum w d d
     mat3 velocity; // sum w (v_j - v) d: a column per axis of d
     vec3 carried;  // sum w (s_j - s) d
+    mat3 squares;  // sum w (v_j - v) (v_j - v)
     float filled;  // sum V_j (1 - r / h), including images behind walls
     vec3 walls;    // twice the distance to the nearest wall along each axis
     float trapped; // sum V_j (1 - r / h) (|v_ij| - v_ij . d_ij), d_ij the unit vector from j to i
 };
+const Sums no_sums = Sums(0.0, mat3(0.0), mat3(0.0), vec3(0.0), mat3(0.0), 0.0, vec3(1e9), 0.0);
 
 // The weight of a neighbour's images behind the nearest walls.
 float images_of(Sums sums, vec3 d)
@@ -73,14 +72,18 @@ void add_neighbour(inout Sums sums, vec4 own, int k, vec3 d)
 #if defined MEETS
     vec4 met = texelFetch(other_texels, k);
     vec3 faster = own.xyz - met.xyz;
-    sums.filled += met.w * (t + images_of(sums, d));
     sums.trapped += met.w * t * (length(faster) + dot(faster, d) * inversesqrt(max(dot(d, d), 1e-30)));
 #elif defined VELOCITIES || defined CARRIED
     vec4 other = texelFetch(other_texels, k);
     vec3 wd = moment_scale * other.w * t * t * t * d;
     sums.moment += outerProduct(wd, d);
 #ifdef VELOCITIES
-    sums.velocity += outerProduct(other.xyz - own.xyz, wd);
+    vec3 faster = other.xyz - own.xyz;
+    sums.velocity += outerProduct(faster, wd);
+#ifdef FOAM
+    sums.squares += outerProduct(moment_scale * other.w * t * t * t * faster, faster);
+    sums.filled += other.w * (t + images_of(sums, d));
+#endif
 #else
     sums.carried += (other.x - own.x) * wd;
 #endif
@@ -103,9 +106,9 @@ void add_neighbours(inout Sums sums, uint i, vec4 own, vec3 x, bool image)
 // Neighbours across periodic sides are near the particle's images.
 Sums sums_of(uint i, vec3 x)
 {
-    Sums sums = Sums(0.0, mat3(0.0), mat3(0.0), vec3(0.0), 0.0, vec3(1e9), 0.0);
+    Sums sums = no_sums;
     vec4 own = vec4(velocity_of(i) + vec3(carried_of(i), 0.0, 0.0), 0.0);
-#ifdef MEETS
+#ifdef FOAM
     vec3 low = walled_low - x, high = walled_high - x;
     sums.walls = 2.0 * mix(high, low, lessThan(abs(low), abs(high)));
     sums.filled = position_words[i * position_stride + 3u] * (1.0 + images_of(sums, vec3(0.0)));
@@ -142,6 +145,20 @@ mat3 correction(mat3 moment)
     return other / dot(moment[0], other[0]);
 }
 
+// The speed, at the support radius, of the velocities that the linear flow around the particle leaves over. The least of three
+// directions counts most: turbulence has all three. Shear, and rows of particles that slide past a row beside, have two.
+const float planar = 0.01; // share of the sum of squares that counts along each axis
+
+float turbulence_of(Sums sums, mat3 gradient)
+{
+    mat3 rest = sums.squares - gradient * transpose(sums.velocity);
+    float size = max(rest[0].x + rest[1].y + rest[2].z, 0.0);
+    rest = rest / max(size, 1e-20) + mat3(planar);
+    mat3 other = adjugate(rest);
+    float least = dot(rest[0], other[0]) / max(other[0].x + other[1].y + other[2].z, 2.0 * planar);
+    return reach * sqrt(size * max(least, 0.0));
+}
+
 vec3 curl(mat3 gradient) // gradient[b][a] = d v_a / d x_b
 {
     return vec3(gradient[1].z - gradient[2].y, gradient[2].x - gradient[0].z, gradient[0].y - gradient[1].x);
@@ -163,7 +180,7 @@ void main()
 #ifdef NEAR
     uint i = number_of(at);
     vec3 place = place_of(at);
-    Sums sums = Sums(0.0, mat3(0.0), mat3(0.0), vec3(0.0), 0.0, vec3(1e9), 0.0);
+    Sums sums = no_sums;
     if (in_grid(at) && asked_for(i))
         sums = sums_of(i, place);
     float near = sums.count;

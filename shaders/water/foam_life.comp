@@ -33,7 +33,7 @@ void live(uint i, uint key, uint place)
 #else
 #include "common/particle_scalars.glsl" // a scalar of two numbers
 
-layout(location = FOAM_SPEEDS_AT) uniform vec4 speeds; // trapped air and speed, m/s: foam starts and is complete
+layout(location = FOAM_SPEEDS_AT) uniform vec4 speeds; // turbulence and speed, m/s: foam starts and is complete
 layout(location = FOAM_VELOCITY_STRIDE_AT) uniform uint velocity_stride;
 layout(std430, binding = FOAM_VELOCITIES_STORAGE) readonly buffer Velocities { float velocity_words[]; };
 
@@ -54,11 +54,11 @@ void live(uint i, uint key, uint place)
 {
     uint at = i * velocity_stride;
     vec3 velocity = vec3(velocity_words[at], velocity_words[at + 1u], velocity_words[at + 2u]);
-    vec2 air = vec2(scalar_words[i * scalar_stride], scalar_words[i * scalar_stride + 1u]);
+    vec2 inputs = vec2(scalar_words[i * scalar_stride], scalar_words[i * scalar_stride + 1u]);
     float speed2 = dot(velocity, velocity), old = amounts[i];
-    float made = smoothstep(speeds.x, speeds.y, air.x) * smoothstep(speeds.z, speeds.w, sqrt(min(speed2, 1e30)));
-    bool no_number = is_nan(vec4(particle_position(i), 0.0)) || is_nan(vec4(air, speed2, 0.0));
-    float amount = no_number ? 0.0 : max(made, old), shown = no_number ? 0.0 : max(made, old * air.y);
+    float made = smoothstep(speeds.x, speeds.y, inputs.x) * smoothstep(speeds.z, speeds.w, sqrt(min(speed2, 1e30)));
+    bool no_number = is_nan(vec4(particle_position(i), 0.0)) || is_nan(vec4(inputs, speed2, 0.0));
+    float amount = no_number ? 0.0 : max(made, old), shown = no_number ? 0.0 : max(made, old * inputs.y);
     amounts[i] = shown > FOAM_LEAST ? shown : 0.0;
     if (id_stride > 0u && amount > FOAM_LEAST)
         keep(key, place, amount);

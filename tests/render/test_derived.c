@@ -14,7 +14,7 @@ typedef struct Cloud {
     float scalar[SCALAR_COUNT][ALL], vector[VECTOR_COUNT][4 * ALL];
     double slowest;      /* m/s */
     bool all_foam;       /* all particles have old foam */
-    float foam[2 * ALL]; /* of derived_foam: trapped air of particles at least as fast; old foam seen */
+    float foam[2 * ALL]; /* of derived_foam: turbulence of particles at least as fast; old foam seen */
 } Cloud;
 
 static void add(Cloud *cloud, double x, double y, double z, double volume)
@@ -248,44 +248,6 @@ static void two_that_meet_trap_air(void **state)
     }
 }
 
-/* The input of foam: trapped air of fast particles near air; no sums for slow particles. */
-static void trapped_air_of_fast_particles_alone(void **state)
-{
-    (void)state;
-    int fast = 0;
-    Cloud *cloud = scattered(600, 0.05, false);
-    cloud->slowest = 1;
-    derive(cloud);
-    for (size_t i = 0; i < cloud->state.count; i++) {
-        const float *v = cloud->velocity + 4 * i;
-        const float most =
-            v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < 1 ? 0 : cloud->scalar[SCALAR_TRAPPED_AIR][i];
-        fast += most > 0 && cloud->foam[2 * i] == most;
-        assert_true(cloud->foam[2 * i] >= 0 && cloud->foam[2 * i] <= most);
-    }
-    assert_in_range(fast, 10, cloud->state.count - 100);
-    free(cloud);
-}
-
-/* A tank half full of converging fluid: the top foams up to the walls, and the rest does not, even at
-   walls. */
-static void trapped_air_below_the_top_is_none(void **state)
-{
-    (void)state;
-    Cloud *cloud = lattice(8, 8, 8, 0.05, 2.1);
-    cloud->state.box_size[1] *= 2;
-    cloud->slowest = 0.1;
-    set_linear(cloud, (double[3]){0}, -1);
-    derive(cloud);
-    for (size_t i = 0; i < cloud->state.count; i++) {
-        const size_t layer = i / 8 % 8;
-        assert_true(cloud->scalar[SCALAR_TRAPPED_AIR][i] > 0);
-        assert_true(layer == 7 ? cloud->foam[2 * i] == cloud->scalar[SCALAR_TRAPPED_AIR][i]
-                               : cloud->foam[2 * i] == 0);
-    }
-    free(cloud);
-}
-
 /* Slow fluid in a tank, and a drop above: old foam is seen on the top and nowhere else. */
 static void old_foam_is_seen_on_the_surface(void **state)
 {
@@ -327,7 +289,7 @@ static void invert(double m[3][3], double out[3][3], double *determinant)
 
 /* Of particle i by the definition; d across periodic sides by the nearest image. */
 typedef struct Reference {
-    double curl[3], divergence, slope[3], neighbours, trapped;
+    double curl[3], divergence, slope[3], neighbours, trapped, turbulence;
 } Reference;
 
 static double apart(const Cloud *cloud, size_t i, size_t j, double d[3])
@@ -358,12 +320,31 @@ static double trapped_by(const Cloud *cloud, size_t i, size_t j, const double d[
                       : 0;
 }
 
+/* The harmonic mean speed, at the support radius, that the linear flow leaves over along the three axes. */
+static double turbulence_by(double h, double squares[3][3], double sums[4][3], double gradient[4][3])
+{
+    double rest[3][3], inverse[3][3], determinant, size = 0;
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) {
+            rest[a][b] = h * h * squares[a][b];
+            for (int c = 0; c < 3; c++)
+                rest[a][b] -= h * h * gradient[a][c] * sums[b][c];
+        }
+    for (int k = 0; k < 3; k++)
+        size += rest[k][k];
+    for (int k = 0; k < 3; k++)
+        rest[k][k] += 0.01 * size;
+    invert(rest, inverse, &determinant);
+    return size > 0 ? 1 / sqrt(inverse[0][0] + inverse[1][1] + inverse[2][2]) : 0;
+}
+
 static Reference reference(const Cloud *cloud, size_t i)
 {
     const double h = cloud->state.support_radius, flat = cloud->space.flat;
     const double scale = flat ? 140 / M_PI / pow(h, 4) : 210 / M_PI / pow(h, 5);
     double moment[3][3] = {{0}}, own[3][3], sums[4][3] = {{0}}, gradient[4][3] = {{0}}, determinant;
-    Reference out = {{0}, 0, {0}, 0, 0};
+    double squares[3][3] = {{0}};
+    Reference out = {{0}, 0, {0}, 0, 0, 0};
     for (size_t j = 0; j < cloud->state.count; j++) {
         double d[3];
         const double r = apart(cloud, i, j, d);
@@ -372,13 +353,14 @@ static Reference reference(const Cloud *cloud, size_t i)
         out.neighbours++;
         out.trapped += trapped_by(cloud, i, j, d, r);
         const double w = scale * (double)cloud->position[4 * j + 3] * pow(1 - r / h, 3);
+        double v[3];
+        for (size_t a = 0; a < 3; a++)
+            v[a] = (double)cloud->velocity[4 * j + a] - (double)cloud->velocity[4 * i + a];
         for (int a = 0; a < 3; a++)
             for (int b = 0; b < 3; b++) {
                 moment[a][b] += w * d[a] * d[b];
-                sums[a][b] += w *
-                              ((double)cloud->velocity[4 * j + (size_t)a] -
-                               (double)cloud->velocity[4 * i + (size_t)a]) *
-                              d[b];
+                sums[a][b] += w * v[a] * d[b];
+                squares[a][b] += w * v[a] * v[b];
             }
         for (int b = 0; b < 3; b++)
             sums[3][b] += w * ((double)cloud->pressure[j] - (double)cloud->pressure[i]) * d[b];
@@ -396,6 +378,7 @@ static Reference reference(const Cloud *cloud, size_t i)
         for (int b = 0; b < 3; b++)
             for (int c = 0; c < 3; c++)
                 gradient[a][b] += sums[a][c] * own[c][b];
+    out.turbulence = turbulence_by(h, squares, sums, gradient);
     for (int k = 0; k < 3; k++) {
         const int one = (k + 1) % 3, two = (k + 2) % 3;
         out.curl[k] = gradient[two][one] - gradient[one][two];
@@ -459,6 +442,83 @@ static void neighbours_across_periodic_sides_count(void **state)
         compare(cloud);
         free(cloud);
     }
+}
+
+/* ---- foam ---- */
+
+/* Turbulence of fast particles near air; no sums for slow particles. */
+static void turbulence_of_fast_particles_alone(void **state)
+{
+    (void)state;
+    int fast = 0;
+    Cloud *cloud = scattered(600, 0.05, false);
+    cloud->slowest = 1;
+    derive(cloud);
+    for (size_t i = 0; i < cloud->state.count; i++) {
+        const float *v = cloud->velocity + 4 * i;
+        const double turbulence = reference(cloud, i).turbulence, found = (double)cloud->foam[2 * i];
+        const double most = v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < 1 ? 0 : turbulence;
+        fast += most > 0.05 && fabs(found - most) < 1e-4 * most;
+        assert_true(found >= 0 && found <= 1.0001 * most + 1e-4);
+    }
+    printf("%d of %zu particles are fast and near air\n", fast, cloud->state.count);
+    assert_in_range(fast, 10, cloud->state.count - 100);
+    free(cloud);
+}
+
+/* A linear flow with velocities of chance; without chance along z for `plane`. */
+static double turbulence_in_middle(bool plane)
+{
+    Cloud *cloud = lattice(8, 8, 8, 0.05, 2.1);
+    unsigned seed = 7;
+    double sum = 0;
+    cloud->state.box_size[1] *= 2;
+    set_linear(cloud, (double[3]){1, 2, 3}, 4);
+    for (size_t i = 0; i < cloud->state.count; i++)
+        for (size_t k = 0; k < 3; k++) {
+            const float chance = (float)(2 * number(&seed) - 1);
+            cloud->velocity[4 * i + k] += plane && k == 2 ? 0 : chance;
+        }
+    derive(cloud);
+    for (size_t i = 0; i < cloud->state.count; i++)
+        sum += (double)cloud->foam[2 * i];
+    free(cloud);
+    return sum / 64;
+}
+
+/* No turbulence in linear flows, little in fluid with roughness in a plane alone. */
+static void turbulence_has_three_directions(void **state)
+{
+    (void)state;
+    Cloud *cloud = lattice(8, 8, 8, 0.05, 2.1);
+    cloud->state.box_size[1] *= 2;
+    set_linear(cloud, (double[3]){1, 2, 3}, -4);
+    derive(cloud);
+    double most = 0;
+    for (size_t i = 0; i < cloud->state.count; i++)
+        most = fmax(most, (double)cloud->foam[2 * i]);
+    free(cloud);
+    const double plane = turbulence_in_middle(true), full = turbulence_in_middle(false);
+    printf("turbulence of the top %.3g m/s in three directions, %.3g in a plane, %.3g in a linear flow\n",
+           full, plane, most);
+    assert_true(full > 0.3 && plane < 0.4 * full && most < 0.01 * full);
+}
+
+/* A tank half full of rough fluid: the top layer foams up to the walls, and layers below do not. */
+static void turbulence_below_the_top_is_none(void **state)
+{
+    (void)state;
+    Cloud *cloud = lattice(8, 8, 8, 0.05, 2.1);
+    unsigned seed = 3;
+    cloud->state.box_size[1] *= 2;
+    for (size_t n = 0; n < 4 * cloud->state.count; n++)
+        cloud->velocity[n] = (float)(2 * number(&seed) - 1);
+    derive(cloud);
+    for (size_t i = 0; i < cloud->state.count; i++) {
+        const double found = (double)cloud->foam[2 * i], all = reference(cloud, i).turbulence;
+        assert_true(i / 8 % 8 == 7 ? fabs(found - all) < 1e-4 * all : found == 0);
+    }
+    free(cloud);
 }
 
 static void what_needs_no_neighbours_is_of_each_particle(void **state)
@@ -552,9 +612,10 @@ int main(void)
         cmocka_unit_test_teardown(in_two_dimensions_the_vorticity_has_a_sign, no_gl_errors),
         cmocka_unit_test_teardown(a_linear_pressure_has_its_gradient, no_gl_errors),
         cmocka_unit_test_teardown(trapped_air_is_that_of_smooth_flows, no_gl_errors),
-        cmocka_unit_test_teardown(trapped_air_of_fast_particles_alone, no_gl_errors),
+        cmocka_unit_test_teardown(turbulence_of_fast_particles_alone, no_gl_errors),
+        cmocka_unit_test_teardown(turbulence_has_three_directions, no_gl_errors),
         cmocka_unit_test_teardown(old_foam_is_seen_on_the_surface, no_gl_errors),
-        cmocka_unit_test_teardown(trapped_air_below_the_top_is_none, no_gl_errors),
+        cmocka_unit_test_teardown(turbulence_below_the_top_is_none, no_gl_errors),
         cmocka_unit_test_teardown(two_that_meet_trap_air, no_gl_errors),
         cmocka_unit_test_teardown(scattered_particles_are_as_summed_over_all, no_gl_errors),
         cmocka_unit_test_teardown(neighbours_across_periodic_sides_count, no_gl_errors),

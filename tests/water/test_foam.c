@@ -1,4 +1,4 @@
-/* Foam: where fluid comes together fast, and nowhere else; the same whatever the order of particles; hidden
+/* Foam: where fluid is fast and turbulent, and nowhere else; the same whatever the order of particles; hidden
    by solids. */
 #include "tests/render/solids_fixture.h"
 
@@ -9,12 +9,13 @@ enum { LONG = 25, DEEP = 12, LAYERS = 5 };
 
 static float velocity[4 * LONG * DEEP * LAYERS], ids[LONG * DEEP * LAYERS];
 
-/* A tank with the right half at rest. In the left half all particles move with a given speed towards the
-   middle of the half, and collide. `backwards`: in the opposite order. */
+/* A tank with the right half at rest. In the left half each particle moves by chance, with a given speed
+   along each axis. `backwards`: in the opposite order. */
 static void fill(SolidsScene *scene, double speed, bool backwards)
 {
     Particles *particles = scene->particles;
     const int count = LONG * DEEP * LAYERS;
+    memset(velocity, 0, sizeof velocity);
     particles->count = 0;
     for (int n = 0; n < count; n++) {
         const int id = backwards ? count - 1 - n : n;
@@ -23,7 +24,8 @@ static void fill(SolidsScene *scene, double speed, bool backwards)
         particles_add(particles, x, (j + 0.5) * SPACING, -0.48 + (k + 0.5) * SPACING, 0, 0);
         particles->position[4 * n + 3] = (float)(SPACING * SPACING * SPACING);
         ids[n] = (float)id;
-        velocity[4 * n] = (float)(x > -0.04 ? 0 : x < -0.5 ? speed : -speed);
+        for (int a = 0; a < 3 && x < -0.04; a++)
+            velocity[4 * n + a] = (float)((id * 2654435761U >> (20 + a)) % 2 ? speed : -speed);
     }
     scene->state = box_state(particles->count, SPACING);
     scene->state.box_size[2] = 0.96;
@@ -118,7 +120,7 @@ static Difference foam_of(SolidsScene *scene, double from, double end)
     return difference;
 }
 
-static void foam_is_where_fluid_meets(void **state)
+static void foam_is_where_fluid_is_turbulent(void **state)
 {
     static const char *const kinds[] = {"splat", "volume"};
     (void)state;
@@ -126,7 +128,8 @@ static void foam_is_where_fluid_meets(void **state)
         SolidsScene scene = tank(kinds[k]);
         fill(&scene, 2, false);
         const Difference left = foam_of(&scene, 0.2, 0.45), right = foam_of(&scene, 0.55, 1);
-        printf("%s: brighter by %.3g where it meets, %.3g beside\n", kinds[k], left.brighter, right.apart);
+        printf("%s: brighter by %.3g where it is turbulent, %.3g beside\n", kinds[k], left.brighter,
+               right.apart);
         assert_true(left.brighter > 0.8);
         assert_true(right.apart == 0);
         free(scene.particles);
@@ -141,11 +144,9 @@ static void smooth_flow_has_none(void **state)
     fill(&scene, 2, false);
     for (size_t n = 0; n < scene.particles->count; n++) {
         const float *at = &scene.particles->position[4 * n];
-        velocity[4 * n] = 1 + 3 * at[0], velocity[4 * n + 1] = -3 * at[1];
+        velocity[4 * n] = 1 + 3 * at[0], velocity[4 * n + 1] = -3 * at[1], velocity[4 * n + 2] = 0;
     }
     assert_true(foam_of(&scene, 0, 1).apart == 0);
-    for (size_t n = 0; n < scene.particles->count; n++)
-        velocity[4 * n + 1] = 0;
     free(scene.particles);
 }
 
@@ -219,7 +220,7 @@ static void foam_lives_and_drifts(void **state)
     free(scene.particles);
 }
 
-/* Seen level through the front pane: foam is on the water, not on the pane below its edge. */
+/* Seen level through the front pane: patches are on the water, not on the pane below its edge. */
 static void panes_have_no_patches(void **state)
 {
     (void)state;
@@ -228,7 +229,7 @@ static void panes_have_no_patches(void **state)
     fill(&scene, 2, false);
     const Difference pane = foam_of(&scene, 0.2, 0.45);
     printf("brighter by %.3g on the pane\n", pane.brighter);
-    assert_true(pane.brighter < 0.05);
+    assert_true(pane.brighter < 3); /* of bubbles; with patches 7.7 */
     free(scene.particles);
 }
 
@@ -249,7 +250,7 @@ static void solids_hide_foam(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(foam_is_where_fluid_meets, no_gl_errors),
+        cmocka_unit_test_teardown(foam_is_where_fluid_is_turbulent, no_gl_errors),
         cmocka_unit_test_teardown(smooth_flow_has_none, no_gl_errors),
         cmocka_unit_test_teardown(there_is_none, no_gl_errors),
         cmocka_unit_test_teardown(bubbles_go_by_ids, no_gl_errors),
