@@ -154,6 +154,7 @@ static void begin_picture(Renderer *renderer, const Subject *subject, const Part
                          .time = particles->time,
                          .spacing = particles->spacing};
     memcpy(picture->box_size, particles->box_size, sizeof picture->box_size);
+    quat_rotate(particles->box.orientation, particles->gravity, picture->gravity);
     set_owned(renderer, picture);
     make_frame(renderer, subject, drawn_target(renderer), picture);
 }

@@ -53,6 +53,7 @@ typedef struct Picture {
     const char *note; /* a line below the legend; NULL: none */
     double time;      /* s */
     double box_size[3], spacing;
+    double gravity[3]; /* in the world's frame, m/s2 */
 } Picture;
 
 typedef struct Effect {

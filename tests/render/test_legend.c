@@ -218,6 +218,54 @@ static void test_legend_is_drawn(void **state)
     }
 }
 
+/* The number of pixels with the ink of gravity. `middle`: the mean x of the arrow's pixels. */
+static int gravity_ink(const double gravity[3], const double orientation[4], double *middle)
+{
+    enum { LONG = 640, HIGH = 360, WORD = 88 };
+    static uint8_t rgb[2][3 * LONG * HIGH];
+    Error error = {0};
+    ViewDef def = bare_view();
+    int written = 0, arrow = 0;
+    def.legend = true, def.camera_auto = false;
+    def.camera = (CameraDef){{0, 1, 3}, {0, 1, 0}, 36};
+    Renderer *renderer = renderer_create(&def, NULL, LONG, HIGH, &error);
+    assert_non_null(renderer);
+    for (int k = 0; k < 2; k++) {
+        ParticleBuffers none = box_state(0, 0.1);
+        memcpy(none.box.orientation, orientation, sizeof none.box.orientation);
+        if (k)
+            memcpy(none.gravity, gravity, sizeof none.gravity);
+        renderer_draw(renderer, &none, NULL);
+        renderer_read(renderer, rgb[k]);
+    }
+    *middle = 0;
+    for (int i = 0; i < LONG * HIGH; i++)
+        if (memcmp(&rgb[0][3 * i], &rgb[1][3 * i], 3) != 0) {
+            written++;
+            if (i % LONG < WORD)
+                *middle += i % LONG, arrow++;
+        }
+    *middle /= arrow ? arrow : 1;
+    renderer_destroy(renderer);
+    return written;
+}
+
+/* An arrow where gravity is not towards the floor, whatever the box's pose. */
+static void test_gravity_has_an_arrow(void **state)
+{
+    (void)state;
+    static const double upright[4] = {0, 0, 0, 1}, turned[4] = {0, 0, 0.70710678, 0.70710678};
+    static const double down[3] = {0, -9.81, 0}, right[3] = {9.81, 0, 0}, left[3] = {-9.81, 0, 0};
+    double middle, to_right, to_left;
+    assert_int_equal(gravity_ink(down, upright, &middle), 0);
+    assert_int_equal(gravity_ink(left, turned, &middle), 0);
+    assert_true(gravity_ink(right, upright, &to_right) > 100);
+    assert_true(gravity_ink(left, upright, &to_left) > 100);
+    printf("the arrow's middle %.3g and %.3g\n", to_right, to_left);
+    assert_true(to_right > to_left + 1);
+    assert_true(gravity_ink(down, turned, &middle) > 100 && fabs(middle - to_right) < 0.5);
+}
+
 /* The whole legend, lines of curves included, is in the room for legends. */
 static void test_legend_stays_in_its_room(void **state)
 {
@@ -300,6 +348,7 @@ int main(void)
         cmocka_unit_test(test_legend_tells_what_is_no_water),
         cmocka_unit_test(test_camera_leaves_room_for_a_panel),
         cmocka_unit_test(test_camera_follows_late),
+        cmocka_unit_test_teardown(test_gravity_has_an_arrow, no_gl_errors),
         cmocka_unit_test_teardown(test_legend_is_drawn, no_gl_errors),
         cmocka_unit_test_teardown(test_legend_stays_in_its_room, no_gl_errors),
         cmocka_unit_test_teardown(test_fluids_have_their_colors, no_gl_errors),
