@@ -100,10 +100,10 @@ def block(centre, half):
 def hull(x, y, z):
     """Of a boat 3 long, whose bow is at x = 1.5; its stern is cut off."""
     along = max(-1.0, min(1.0, x / 1.5))
-    wide = 0.56 * (1 - max(along, 0)**2.5) * (1 - 0.25 * min(along, 0)**2)
+    wide = 0.68 * (1 - max(along, 0)**2.5) * (1 - 0.25 * min(along, 0)**2)
     deck, low = 0.62 + 0.16 * along * along, max(y, 0.0) / 0.7
     side = abs(z) - wide * min(low, 1.0)**0.4
-    return max(0.8 * side, y - deck, -1.4 - x, x - 1.5)
+    return -melt(-max(0.8 * side, -1.4 - x, x - 1.5), deck - y, 0.14)  # a rim as round as the grid can show
 
 
 def ship():
@@ -201,7 +201,7 @@ def main():
             ('rabbit', rabbit(), write_obj, (-0.46, -0.05, -0.32), (0.46, 1.06, 0.32), 0.026),
             ('bust', bust(), write_ply, (-0.46, -0.05, -0.36), (0.46, 1.02, 0.3), 0.021),
             ('duck', duck(), write_obj, (-0.83, -0.05, -0.62), (0.75, 1.06, 0.62), 0.05),
-            ('ship', ship(), write_obj, (-1.5, -0.06, -0.66), (1.6, 1.06, 0.66), 0.06)]:
+            ('ship', ship(), write_obj, (-1.5, -0.06, -0.78), (1.6, 1.06, 0.78), 0.06)]:
         vertices, faces = surface(field_of(*model), low, high, cell)
         path = folder / (title + ('.obj' if write is write_obj else '.ply'))
         write(path, title, unit_high(vertices), faces)
