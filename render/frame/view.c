@@ -120,7 +120,7 @@ const Key view_keys[] = {
 
 /* Keys that the docs list after the views' own keys. */
 const Key view_frame_keys[] = {
-    BOOLEAN("view.legend", L, AT(legend), "draw the legend"),
+    BOOLEAN("view.legend", L, AT(legend), "draw the legend, the time, and an arrow of gravity where that is not towards the floor"),
     BOOLEAN("view.box", L, AT(box), "draw the box's edges"),
     CHOICE_OF("view.walls", L | KEY_INDEX, view_walls_names, AT(walls), "how the box is drawn: lines: its edges; glass: edges that catch the light, panes that mirror faintly and a line where water meets them (a draft has the edges alone); auto: glass where the view shows clear fluid, else lines"),
     BOOLEAN("view.floor", L, AT(floor), "draw the floor below the box"),
