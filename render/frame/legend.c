@@ -354,27 +354,32 @@ static void draw_overlay_lines(Text *text, const Picture *picture)
         draw_line(text, &picture->frame, em, bottom - (3.6F + 1.6F * (float)i) * em, lines[i].words);
 }
 
-/* Draws an arrow along gravity, with the middle at x, y (pixels), unless gravity is towards the floor. */
-static void draw_gravity(Text *text, const Picture *picture, float x, float y)
+/* Draws an arrow along gravity below `top`, in letter heights, unless gravity is towards the floor. Returns
+   the lower end. */
+static float draw_gravity(Text *text, const Picture *picture, float top)
 {
     static const double MOST_UPRIGHT = 0.9998; /* cosine of one degree */
+    static const char word[] = "gravity";
     const double *gravity = picture->gravity;
     const float *view = picture->frame.camera.view, em = text_height(text);
     const double size = sqrt(gravity[0] * gravity[0] + gravity[1] * gravity[1] + gravity[2] * gravity[2]);
     const uint32_t ink = make_layout(text, &picture->frame, 0, 0).faint;
     float way[2] = {0, 0};
     if (!(size > 0) || -gravity[1] > MOST_UPRIGHT * size)
-        return;
+        return top;
     for (int k = 0; k < 3; k++) {
         way[0] += (float)(view[4 * k] * gravity[k] / size);
         way[1] -= (float)(view[4 * k + 1] * gravity[k] / size);
     }
+    const float right = (float)picture->frame.width - em, y = (top + 2.6F) * em;
+    const float x = right - text_width(text, 1, word) - 1.4F * em;
     const float tip[2] = {x + em * way[0], y + em * way[1]};
     const float neck[2] = {x + 0.3F * em * way[0], y + 0.3F * em * way[1]};
     text_line(text, x - em * way[0], y - em * way[1], neck[0], neck[1], 0.14F * em, ink);
     text_triangle(text, (float[3]){tip[0], neck[0] - 0.3F * em * way[1], neck[0] + 0.3F * em * way[1]},
                   (float[3]){tip[1], neck[1] + 0.3F * em * way[0], neck[1] - 0.3F * em * way[0]}, ink);
-    text_draw(text, x + 1.4F * em, y - 0.5F * em, 1, ink, TEXT_LEFT, "gravity");
+    text_draw(text, right, y - 0.5F * em, 1, ink, TEXT_RIGHT, word);
+    return top + 3.2F;
 }
 
 static void draw_legend(Text *text, const Picture *picture)
@@ -384,12 +389,12 @@ static void draw_legend(Text *text, const Picture *picture)
     char label[40];
     snprintf(label, sizeof label, "%.2f s", picture->time);
     draw_line(text, frame, em, (float)frame->height - 2 * em, label);
-    draw_gravity(text, picture, 3 * em + text_width(text, 1, label), (float)frame->height - 1.5F * em);
     float bottom = draw_colors(text, frame);
     if (frame->colors.part_count > 0)
         bottom = draw_parts(text, frame, bottom);
     if (picture->note)
         bottom = draw_rows(text, frame, bottom + 0.5F, picture->note);
+    bottom = draw_gravity(text, picture, bottom);
     if (bottom > 0)
         draw_curves(text, frame, bottom);
     draw_overlay_lines(text, picture);

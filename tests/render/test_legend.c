@@ -221,7 +221,7 @@ static void test_legend_is_drawn(void **state)
 /* The number of pixels with the ink of gravity. `middle`: the mean x of the arrow's pixels. */
 static int gravity_ink(const double gravity[3], const double orientation[4], double *middle)
 {
-    enum { LONG = 640, HIGH = 360, WORD = 88 };
+    enum { LONG = 640, HIGH = 360, WORD = LONG - 52 };
     static uint8_t rgb[2][3 * LONG * HIGH];
     Error error = {0};
     ViewDef def = bare_view();
