@@ -168,6 +168,22 @@ static double boiling_damped(const WorldDef *def)
                : 0;
 }
 
+/* The support that counts for the stiffest wave of the lattice, m: beyond a shell of neighbours a greater
+   support brings weight, and no neighbour that would soften the wave. */
+static double stiff_reach(const WorldDef *def)
+{
+    static const double BEYOND = 1.05; /* 2.1 at the shell of 2 spacings, of which STEP_PRESSURE_STANDS is */
+    const int most = (int)ceil(def->support * def->support) - 1, deep = def->dimensions == 3 ? 4 : 0;
+    int shell = 0;
+    for (int i = 0; i <= 4; i++)
+        for (int j = 0; j <= 4; j++)
+            for (int k = 0; k <= deep; k++) {
+                const int squares = i * i + j * j + k * k;
+                shell = squares <= most && squares > shell ? squares : shell;
+            }
+    return fmin(def->support, BEYOND * sqrt(shell)) * def->spacing;
+}
+
 /* With v' = (v - dt w^2 x) / (1 + dt r), x' = x + dt v', the scheme is stable up to (dt w)^2 = 4 + 2 r dt.
    Without damping the bound is w dt = 2, at `still`. */
 double step_pressure(const WorldDef *def)
@@ -179,7 +195,7 @@ double step_pressure(const WorldDef *def)
         return INFINITY;
     if (method->leaps)
         return sqrt(STEP_FALL_STANDS * def->spacing * fall) / speed;
-    const double still = STEP_PRESSURE_STANDS * def->support * def->spacing / speed,
+    const double still = STEP_PRESSURE_STANDS * stiff_reach(def) / speed,
                  damped = 0.25 * still * boiling_damped(def);
     return still * (damped + sqrt(damped * damped + 1));
 }
