@@ -145,8 +145,8 @@ mat3 correction(mat3 moment)
     return other / dot(moment[0], other[0]);
 }
 
-// The speed, at the support radius, of the velocities that the linear flow around the particle leaves over. The least of three
-// directions counts most: turbulence has all three. Shear, and rows of particles that slide past a row beside, have two.
+// The speed, at the support radius, left over by the linear flow around the particle. The least of three directions counts
+// most: turbulence has all three. Shear, and rows of particles sliding past a row beside, have two.
 const float planar = 0.01; // share of the sum of squares that counts along each axis
 
 float turbulence_of(Sums sums, mat3 gradient)
