@@ -74,7 +74,7 @@ static void a_method_gets_its_own_keys(void **state)
     assert_float_equal(wcsph_def(def)->delta_sph, wcsph_def(&none)->delta_sph, 0);
     assert_int_equal(wcsph_def(def)->viscosity_form, wcsph_def(&none)->viscosity_form);
     def = world_of(ACCURATE "  method: dfsph\n", NULL);
-    assert_true(def->support == 2.1 && def->cfl_number == 0.15);
+    assert_true(def->support == 2.22 && def->cfl_number == 0.15);
     assert_int_equal(world_of(ACCURATE "  method: pbf\n", NULL)->step_mode, STEP_FIXED);
     assert_float_equal(world_of(LEAST, "solver.method=dfsph")->cfl_number, 0.2, 0);
 }
