@@ -68,6 +68,31 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
                                                   .solids = step->solids});
 }
 
+static double length(const double v[3])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+/* step_pressure in the moving box: apparent gravity is that of the prescribed motion over a step as long as
+   the last one. A jolt counts as at most JOLT times gravity, since the jolt is over after a step. */
+static double pressure_limit(const World *world)
+{
+    static const double JOLT = 16;
+    const double at = (double)world->step, dt = world->stepping.dt, weight = length(world->def.gravity);
+    const double stands = step_pressure(&world->def);
+    if (!isfinite(stands) || !(dt > 0))
+        return stands;
+    BoxState begin, middle, end;
+    ApparentGravity apparent;
+    world_box_at(world, &world->filter, world_time_at(world, at), &begin);
+    world_box_at(world, &world->filter, world_time_at(world, at + 0.5), &middle);
+    world_box_at(world, &world->filter, world_time_at(world, at + 1), &end);
+    apparent_gravity(world->def.gravity, &begin, &middle, &end, dt, &apparent);
+    const double pull[3] = {(double)apparent.origin[0], (double)apparent.origin[1],
+                            (double)apparent.origin[2]};
+    return stands / sqrt(fmin(fmax(length(pull) / weight, 1), JOLT));
+}
+
 /* The size of the next step. On a change, time counts from here. */
 static void choose_step(World *world)
 {
@@ -79,6 +104,11 @@ static void choose_step(World *world)
                     ? step_cfl(def, &world->constants.friction, s->max_speed,
                                s->max_acceleration + finger_acceleration(&world->finger), before, &limit)
                     : def->dt / def->substeps;
+    const double stands = def->step_mode == STEP_CFL ? pressure_limit(world) : INFINITY;
+    if (stands < s->wanted) {
+        s->wanted = stands;
+        limit = STEP_LIMIT_PRESSURE;
+    }
     s->limit = limit;
     double dt = s->wanted / s->refine;
     if (def->step_mode == STEP_CFL)

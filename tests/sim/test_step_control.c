@@ -420,6 +420,32 @@ static void the_advice_names_what_binds(void **state)
     assert_string_equal(words, "use a smaller solver.step.number");
 }
 
+/* The longest step of mode cfl with fluid at rest in a box that accelerates upwards. */
+static double step_in_a_lift(double acceleration)
+{
+    WorldDef def = falling_block();
+    snprintf(def.method, sizeof def.method, "dfsph");
+    def.step_mode = STEP_CFL;
+    def.max_dt = 1;
+    add_motion(&def, (Motion){.kind = MOTION_ACCELERATE, .axis = {0, 1, 0}, .acceleration = acceleration});
+    World *world = fixture_world(&def);
+    fixture_step(world, 2);
+    const WorldInfo info = info_of(world);
+    world_destroy(world);
+    return info.dt;
+}
+
+/* With four times the weight pressure stands half of the step. */
+static void the_pressure_s_limit_knows_the_box(void **state)
+{
+    (void)state;
+    fixture_needs_cpu("the step of one backend is that of all");
+    const double rest = step_in_a_lift(0);
+    assert_float_equal(step_in_a_lift(3 * 9.81), 0.5 * rest, 1e-4 * rest);
+    assert_float_equal(step_in_a_lift(-0.5 * 9.81), rest, 1e-9); /* lighter fluid is given no longer steps */
+    assert_float_equal(step_in_a_lift(99 * 9.81), 0.25 * rest, 1e-4 * rest);
+}
+
 static void without_a_sentinel_it_stops_at_once(void **state)
 {
     (void)state;
@@ -557,6 +583,7 @@ int main(void)
         cmocka_unit_test(the_step_is_halved),
         cmocka_unit_test(it_gives_up_with_the_last_good_state),
         cmocka_unit_test(the_advice_names_what_binds),
+        cmocka_unit_test(the_pressure_s_limit_knows_the_box),
         cmocka_unit_test(without_a_sentinel_it_stops_at_once),
         cmocka_unit_test(calm_brings_the_step_back),
         cmocka_unit_test(a_session_with_trouble_comes_out_the_same),
