@@ -72,7 +72,8 @@ double step_sound_calm(const WorldDef *def); /* by the stiffness of the kernel *
    half a spacing of fall a column reads 1.3 to 1.8 times its weight and boils (2D, 20 and 36 layers). With
    other methods multipliers belong to the middle of a step. At p / rho = g times depth, positions boil from
    0.3 h / sqrt(g depth) on in 3D (0.43 in 2D), at any tolerance; later with implicit friction as damping.
-   Depth is the greatest fall. */
+   Depth is the greatest fall. h counts up to a twentieth beyond the last shell of the lattice's neighbours.
+   For a box at rest: world_step.c shortens the limit by the box's prescribed acceleration. */
 double step_pressure(const WorldDef *def);
 #define STEP_PRESSURE_STANDS 0.25
 #define STEP_FALL_STANDS     0.4 /* spacings */
