@@ -98,6 +98,7 @@ static void *array(Cpu *cpu, size_t count, size_t size)
 
 void cpu_arrays_destroy(Cpu *cpu)
 {
+    cpu_coarse_destroy(cpu->coarse);
     columns_destroy(&cpu->now);
     columns_destroy(&cpu->spare);
     if (cpu->fluid_at != cpu->owned_at)
@@ -198,6 +199,7 @@ static Cpu bare(const Cpu *cpu)
         .forces = cpu->forces,
         .force_sums = cpu->force_sums,
         .sum_all = cpu->sum_all,
+        .add_all = cpu->add_all,
         .watch = cpu->watch,
     };
 }

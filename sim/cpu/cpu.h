@@ -49,7 +49,11 @@ typedef struct Cpu {
     struct CpuForceSums *force_sums; /* scratch for these sums */
     /* Replaces each of `count` sums by the sum over all processes of the world; NULL: a single process. */
     void (*sum_all)(ExactSum *sums, int count);
-    StepWatch watch; /* written by `kick` (atomic), read and reset by `watch` */
+    /* The same for integers. */
+    void (*add_all)(int64_t *numbers, size_t count);
+    StepWatch watch;            /* written by `kick` (atomic), read and reset by `watch` */
+    struct CoarseLevel *coarse; /* made by the first cpu_coarse_correct */
+    bool thin;                  /* since the last `grid`: a correction found the fluid too thin */
 } Cpu;
 
 /* Boundary particles are stored among the fluid particles: `fluid` is FLUIDS_MAX + solid, ids start here. */
@@ -266,8 +270,9 @@ typedef struct SolidPair {
 typedef void (*SolidForce)(const SolidPair *pair, float force[3]);
 
 typedef struct CpuPass {
-    CpuLoop loops[4];                             /* ended by a loop without a body */
-    PairCost (*pair)(const Constants *constants); /* counted as in sim/step/method.h; NULL: no pairs */
+    CpuLoop loops[4];                              /* ended by a loop without a body */
+    PairCost (*pair)(const Constants *constants);  /* counted as in sim/step/method.h; NULL: no pairs */
+    void (*end)(Cpu *cpu, const PassInput *input); /* after the loops, by itself; NULL: nothing */
     SolidForce solid; /* for forces on solids, after the pass; NULL: no lasting force on solids */
 } CpuPass;
 
@@ -308,6 +313,29 @@ void cpu_cushion(const CpuRange *range);
 /* Adds the share of a particle's weight held by the walls (WallLift); call after cpu_force_end. Fades out
    below the pressure of `from` + 1 layers, so that a drop on a wall falls freely. */
 void cpu_wall_lift(const CpuRange *range, float from);
+
+/* A coarse level for a solver whose iterations move short waves only: sim/cpu/coarse.c. A correction adds to
+   a value per particle the smooth function v with the least
+     sum weight |h grad v|^2 + hold v^2 - 2 residual v
+   over the own fluid particles. h is the support radius. Weights, holds and residuals are of the order of 1:
+   sums have 36 bits below 1, and a hold or residual counts up to 100. */
+typedef struct CoarseTerms {
+    const float *weight; /* per particle, at least 0; with 0 the particle's value stays */
+    const float *hold;   /* at least 0: what holds v at 0, as a free surface holds pressure */
+    const float *residual;
+    float *value; /* += scale * v */
+    float scale;
+    bool negative; /* values may be below 0 */
+    double left;   /* the part of the residual of v that is enough, 0 to 1 */
+} CoarseTerms;
+
+typedef struct CoarseLevel CoarseLevel;
+
+/* Corrects the values, with the same bits on any number of threads and ranks. Needs the grid of the present
+   positions. Thin fluid is left to iterations: then values stay, and Cpu.thin says so until the next grid. If
+   memory is short, values stay and StepWatch.memory says so. */
+void cpu_coarse_correct(Cpu *cpu, const CoarseTerms *terms);
+void cpu_coarse_destroy(CoarseLevel *level);
 
 /* The machine's peak rates on some threads: the best of a few tries. */
 

@@ -163,6 +163,7 @@ void cpu_sort(Cpu *cpu)
     columns_swap(&cpu->sorted, &cpu->now, &cpu->spare);
     cpu->gridded = cpu->count;
     cpu->lists.ready = false;
+    cpu->thin = false;
     if (cpu->copies > 0)
         cpu_copies_place(cpu);
     if (cpu->owned_at)

@@ -132,6 +132,8 @@ void cpu_run_pass(void *state, const Pass *pass, const PassInput *input)
         PassJob running = {cpu, pass, loop, input};
         run_loop(&running);
     }
+    if (pass->cpu->end)
+        pass->cpu->end(cpu, input);
     if (cpu->forces && cpu->boundary_at && pass->cpu->solid && input->dt > 0)
         cpu_add_solid_forces(cpu, pass->cpu->solid, input->dt);
     if (mirrors)

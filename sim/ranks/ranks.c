@@ -138,6 +138,16 @@ static void sum_all(ExactSum *sums, int count)
     not_computed(reporting, begin);
 }
 
+static void add_all(int64_t *numbers, size_t count)
+{
+    const Clock begin = clock_now();
+    wait_for_others(reporting);
+    const Clock met = clock_now();
+    reduce_integers(numbers, count);
+    exchanged(reporting, met);
+    not_computed(reporting, begin);
+}
+
 /* ---- begin and end ---- */
 
 static void ranks_destroy(void *state)
@@ -224,6 +234,7 @@ static void *ranks_create(const Constants *constants, const WorldDef *def, const
     if (!ranks->cpu)
         dist_die("%s", error->message);
     ranks->cpu->sum_all = size > 1 ? sum_all : NULL;
+    ranks->cpu->add_all = size > 1 ? add_all : NULL;
     for (size_t i = 0; i < share.initial.count; i++)
         ranks->cpu->now.id[i] = share.id[i];
     share_free(&share);

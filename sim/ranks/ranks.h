@@ -13,6 +13,7 @@
 /* Replaces each of `count` sums by the sum over all ranks: the same bits for any distribution of the terms.
    `count`: at most the number of sums felt by box and solids (sim/cpu/cpu.h). */
 void reduce_exact(ExactSum *sums, int count);
+void reduce_integers(int64_t *numbers, size_t count);
 
 /* Maximum of each value; sum of each value, in doubles, for figures that no step reads; sum of an integer. */
 void reduce_most(double *values, int count);

@@ -51,6 +51,16 @@ void reduce_exact(ExactSum *sums, int count)
         exact_from_words(words[k], &sums[k]);
 }
 
+/* In parts: MPI counts by int. */
+void reduce_integers(int64_t *numbers, size_t count)
+{
+    for (size_t done = 0; done < count;) {
+        const size_t part = count - done < INT32_MAX ? count - done : INT32_MAX;
+        MPI_Allreduce(MPI_IN_PLACE, numbers + done, (int)part, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+        done += part;
+    }
+}
+
 void reduce_most(double *values, int count)
 {
     MPI_Allreduce(MPI_IN_PLACE, values, count, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);

@@ -43,6 +43,31 @@ static bool goes_on(const Iteration *iteration, const IterationFound *found)
             (found->most > iteration->worst && found->iterations < iteration->few));
 }
 
+/* An iteration carries an error a support radius further: long waves need many iterations. After two
+   iterations a coarse correction is due if COARSE_WORTH more of the same effect would not reach the
+   tolerance. The next correction is due COARSE_EVERY iterations later. */
+enum { COARSE_WORTH = 5, COARSE_EVERY = 4 };
+
+/* Mean residuals of an iteration and the two before, and iterations until the next correction. */
+typedef struct Progress {
+    double mean[3];
+    int wait;
+} Progress;
+
+static bool is_slow(const Iteration *iteration, double mean, Progress *progress)
+{
+    for (int k = 0; k < 2; k++)
+        progress->mean[k] = progress->mean[k + 1];
+    progress->mean[2] = mean;
+    if (!iteration->coarse || --progress->wait >= 0)
+        return false;
+    const double part = sqrt(mean / progress->mean[0]);
+    if (!(mean * pow(part, COARSE_WORTH) > iteration->tolerance))
+        return false;
+    progress->wait = COARSE_EVERY - 1;
+    return true;
+}
+
 static Excess excess_of(const Substep *step, const ColumnDef *column)
 {
     return column ? step->backend->excess(step->state, column) : (Excess){0};
@@ -54,6 +79,7 @@ static void iterate_here(const Substep *step, const Iteration *iteration, double
     const double scale = scale_of(step, iteration);
     PassInput input = substep_input(step, dt);
     Conjugate now = {0};
+    Progress progress = {.wait = 2};
     *found = (IterationFound){.mean = INFINITY};
     if (iteration->begun)
         measure(step, iteration, scale, found);
@@ -61,6 +87,8 @@ static void iterate_here(const Substep *step, const Iteration *iteration, double
         conjugate(step, iteration, &now);
         input.go = (float)now.go;
         input.turn = (float)now.turn;
+        if (is_slow(iteration, found->mean, &progress))
+            step->backend->run(step->state, iteration->coarse, &input);
         for (int k = 0; iteration->passes[k]; k++)
             step->backend->run(step->state, iteration->passes[k], &input);
         found->iterations++;

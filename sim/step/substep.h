@@ -99,6 +99,7 @@ static inline void substep_kick(const Substep *step)
    decisions on the device (Backend.iterate), and may report after the step (Backend.finish). */
 typedef struct Iteration {
     const Pass *passes[4];     /* of an iteration, ended by NULL; the last pass measures */
+    const Pass *coarse;        /* a correction of long waves, before a slow iteration; NULL: none */
     const ColumnDef *residual; /* only positive values count */
     double tolerance;          /* for the mean residual */
     double worst;              /* if a particle exceeds `worst`, */

@@ -1,4 +1,4 @@
-"""slosh-dist gives the bits of slosh run on 1, 2, 3 and 4 ranks: each method, a box that moves, solids, emitters and drains,
+"""slosh-dist gives the bits of slosh run on 1, 2, 3 and 4 ranks: each method, a coarse level, a box that moves, solids, emitters and drains,
 periodic sides, adaptive steps, a rank with hardly a particle, trouble that is gone back from, and runs that go on on other
 ranks."""
 import json
@@ -60,6 +60,20 @@ class Ranks(RanksCase):
     def test_methods(self):
         for method in ("wcsph", "dfsph", "pbf"):
             self.check("dam_break", "--method", method, "--particles", "500", "--time", "0.06", "--every", "0.03")
+
+    def test_coarse_level(self):
+        """In deep water that is heaved, where a coarse grid of all ranks corrects the pressure."""
+        scene = self.folder / "deep.yaml"
+        scene.write_text("""
+box: {size: [0.5, 1.2]}
+particles: {spacing: 0.025}
+fluids:
+  - {name: water, density: 1000, fill: [{block: {min: [-0.25, 0], max: [0.25, 1]}}]}
+motion:
+  - shake: {axis: [0, 1], amplitude: 0.05, frequency: 1.5}
+solver: {method: dfsph, step: {mode: cfl}}
+""")
+        self.check(scene, "--time", "0.1", "--every", "0.05", ranks=(2, 3))
 
     def test_places_in_a_wide_box(self):
         """What rounding leaves of them goes with them, and a run that goes on on other ranks has it."""

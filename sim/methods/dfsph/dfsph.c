@@ -7,13 +7,16 @@
 #include <math.h>
 #include <string.h>
 
-static const DfsphDef usual = {.tolerance = 0.0005, .divergence_tolerance = 0.0001, .iterations = 100};
+static const DfsphDef usual = {
+    .tolerance = 0.0005, .divergence_tolerance = 0.0001, .iterations = 100, .coarse = true};
 
 /* clang-format off */
 static const Key keys[] = {
     NUMBER("solver.tolerance", 0, "", 0, 1, offsetof(DfsphDef, tolerance), "mean compression that the solver of density leaves"),
     NUMBER("solver.divergence_tolerance", 0, "", 0, 1, offsetof(DfsphDef, divergence_tolerance), "mean compression that a step's velocities may make"),
     INTEGER("solver.iterations", 0, 1, 10000, offsetof(DfsphDef, iterations), "of each solver, at most"),
+    BOOLEAN("solver.coarse", 0, offsetof(DfsphDef, coarse),
+            "a coarse grid corrects the pressure where iterations are slow, as in deep water; backend cpu"),
     NUMBER("solver.surface_lack", 0, "", 0, 1, offsetof(DfsphDef, surface_lack),
            "part of the neighbours missing at a free surface that the solvers add: 1, else a dense skin slows waves; 0: none", .off = "0"),
     NUMBER("solver.rest_viscosity", 0, "", 0, 1, offsetof(DfsphDef, rest_viscosity),
@@ -41,6 +44,7 @@ static void dfsph_set(Constants *constants, const WorldDef *def)
                  .surface_slope = factors.surface_slope,
                  .boundary_fades = (float)incompressible_boundary_fades(def)},
         .most = said->iterations,
+        .coarse = said->coarse,
         .tolerance = said->tolerance,
         .divergence_tolerance = said->divergence_tolerance,
         .factors = factors,
@@ -71,12 +75,14 @@ static const double STILL = 1e-5;
 static void solve(const Substep *step, int which, const Pass *const passes[4], double tolerance,
                   double allowed)
 {
+    const DfsphConstants *own = dfsph_solvers(step->constants);
     const Iteration iteration = {.passes = {passes[1], passes[2]},
+                                 .coarse = own->coarse && which == SOLVE_DIVERGENCE ? &dfsph_coarse : NULL,
                                  .residual = dfsph_miss,
                                  .tolerance = tolerance,
                                  .worst = fmax(WORST * tolerance, WORTH[which]),
                                  .few = FEW,
-                                 .most = dfsph_solvers(step->constants)->most,
+                                 .most = own->most,
                                  .begun = true,
                                  .allowed = allowed};
     substep_run(step, passes[0], step->dt);

@@ -9,6 +9,7 @@ typedef struct MAY_ALIAS DfsphDef {
     double tolerance;            /* mean compression left by the solver of density, a fraction */
     double divergence_tolerance; /* mean compression allowed in a step by velocities, a fraction */
     int iterations;              /* of each solver, at most */
+    bool coarse;                 /* a coarse level corrects slow iterations of the solver of divergence */
     double surface_lack; /* part of the neighbours that a free surface lacks, added by the solvers; 0: none */
     double rest_viscosity; /* alpha of the least friction of fluid: dfsph_friction */
 } DfsphDef;

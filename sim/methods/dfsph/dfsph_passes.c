@@ -472,6 +472,91 @@ static void divergence_rate(const CpuRange *range)
     rate(range, false);
 }
 
+/* --- the coarse level of the solver of divergence --- */
+
+/* For k_i = v(x_i) where k > 0, a force sum (k_i + k_j) F x_ij is u v - C grad v: u is the force of k = 1, C
+   is pressure_of_term / n0, half as much at a surface. The level adds the squares of both parts, over the
+   mass. The product of the parts is left out: the sum is too small by a factor of two at most, and a surface
+   across a coarse cell leaves no v free of force. */
+
+static float held(const Cpu *cpu, size_t i)
+{
+    return of_fluid(cpu, i) && (cpu->constants->negative_pressure || cpu->now.pressure_term[i] > 0);
+}
+
+static void pack_held(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    for (size_t i = range->begin; i < range->end; i++)
+        memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], held(range->cpu, i)}, 16);
+}
+
+static float lightest(const Constants *constants)
+{
+    float mass = constants->mass[0];
+    for (int f = 1; f < constants->fluid_count; f++)
+        mass = fminf(mass, constants->mass[f]);
+    return mass;
+}
+
+/* C / h, N. */
+static float coarse_slope(const Constants *constants)
+{
+    return dfsph_constants(constants)->pressure_of_term /
+           (constants->rest_number_density * constants->support_radius);
+}
+
+/* Places of what cpu_coarse_correct reads, in the accelerations. */
+enum { COARSE_WEIGHT, COARSE_HOLD, COARSE_RESIDUAL };
+
+static void coarse_body(const CpuRange *range)
+{
+    const Cpu *cpu = range->cpu;
+    const CpuParticles *p = &cpu->now;
+    const DfsphBlock *block = dfsph_constants(cpu->constants);
+    float *const *slope = p->own + SOLID + SOLID_SLOPE; /* NULL: a world without solids */
+    const float mass = lightest(cpu->constants), unit = 1 / coarse_slope(cpu->constants),
+                over_lack = block->surface_lack > 0 ? 1 / block->surface_lack : 0;
+    if (cpu->thin)
+        return;
+    cpu_pairs(range, &dfsph_push);
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float holds = held(cpu, i), light = mass * p->own[INVERSE_MASS][i],
+                    whole = 1 - 0.5F * over_lack * p->own[LACK][i];
+        float *const a[3] = {&p->ax[i], &p->ay[i], &p->az[i]};
+        float square = 0;
+        for (int k = 0; k < 3; k++) {
+            const float push = unit * (*a[k] + (slope[k] ? holds * slope[k][i] : 0));
+            square += push * push;
+        }
+        *a[COARSE_WEIGHT] = holds * light * whole * whole;
+        *a[COARSE_HOLD] = light * square;
+        *a[COARSE_RESIDUAL] = holds * p->own[RESIDUAL][i];
+    }
+}
+
+/* A hundredth of the residual of v may be left: the iterations go on. */
+static void coarse_end(Cpu *cpu, const PassInput *input)
+{
+    if (cpu->thin)
+        return;
+    const Constants *s = cpu->constants;
+    float *const a[3] = {cpu->now.ax, cpu->now.ay, cpu->now.az};
+    const float slope = coarse_slope(s), dt2 = input->dt * input->dt;
+    const CoarseTerms terms = {
+        .weight = a[COARSE_WEIGHT],
+        .hold = a[COARSE_HOLD],
+        .residual = a[COARSE_RESIDUAL],
+        .value = cpu->now.pressure_term,
+        .scale = dt2 > 0 ? s->rest_number_density * lightest(s) / (dt2 * slope * slope) : 0,
+        .negative = s->negative_pressure,
+        .left = 0.01,
+    };
+    cpu_coarse_correct(cpu, &terms);
+}
+
+static const CpuPass coarse = {.loops = {{coarse_body, .walks = true, .pack = pack_held}}, .end = coarse_end};
+
 /* The motion of solids' particles stays through all iterations. */
 static const CpuPass begins[] = {
     {.loops = {{divergence_begin}, {divergence_motion, .solids = true}}},
@@ -524,6 +609,13 @@ const Pass dfsph_divergence_push = SOLVE("divergence push", pushes[0], "divergen
                                          "pressure_term acceleration change solid_by");
 const Pass dfsph_divergence_rate =
     SOLVE("divergence rate", rates[0], "divergence_rate", RATE_READS, "residual miss");
+const Pass dfsph_coarse = {
+    .name = "coarse",
+    .stage = STAGE_SOLVE,
+    .cpu = &coarse,
+    .reads = "position id fluid pressure_term residual lack inverse_mass solid_slope",
+    .writes = "pressure_term acceleration",
+};
 const Pass dfsph_divergence_end = {
     .name = "divergence end",
     .stage = STAGE_SOLVE,

@@ -51,6 +51,7 @@ extern const ColumnDef *const dfsph_miss;
 typedef struct DfsphConstants {
     DfsphBlock sums;
     int most; /* iterations */
+    bool coarse;
     double tolerance, divergence_tolerance;
     IncompressibleFactors factors;
 } DfsphConstants;
@@ -78,6 +79,9 @@ extern const Pass dfsph_pressed, dfsph_unpressed;
 
 /* First k and residual of a solver; at the end, the values to keep. */
 extern const Pass dfsph_divergence_begin, dfsph_density_begin, dfsph_divergence_end, dfsph_density_end;
+
+/* Adds to k what a coarse level finds for the residual. Overwrites the accelerations. Backend cpu. */
+extern const Pass dfsph_coarse;
 
 /* An iteration: k by the residual before, accelerations by k; then the residual by accelerations. */
 extern const Pass dfsph_divergence_push, dfsph_divergence_rate, dfsph_density_push, dfsph_density_rate;

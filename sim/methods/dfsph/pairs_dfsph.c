@@ -16,7 +16,7 @@ PAIR_LOOP(dfsph_push)
 {
     const f8 gradient = f8_splat(dfsph_constants(args->constants)->gradient), zero = f8_splat(0);
     GROUPS (i, begin, end) {
-        const f8 ki = f8_load(args->pressure_term + i);
+        const f8 ki = f8_load4(args->place, themselves(args, i).j).w;
         LaneVector sum = {zero, zero, zero};
         push_of(args, i, neighbour_range_of(args, i), ki, NULL, &sum);
         for (const uint32_t *at = first_image(args, i); at;) {
