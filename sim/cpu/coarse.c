@@ -165,8 +165,8 @@ static inline void place_in(const Cpu *cpu, const CoarseCell *cell, size_t i, fl
 {
     const CellGrid *cells = &cpu->constants->cells;
     const float x[3] = {cpu->now.x[i], cpu->now.y[i], cpu->now.z[i]};
-    at[2] = 0;
-    for (int k = 0; k < cpu->constants->dimensions; k++)
+    at[0] = at[1] = at[2] = 0;
+    for (int k = 0; k < 3 && k < cpu->constants->dimensions; k++)
         at[k] = fminf(
             fmaxf(((x[k] - cells->origin[k]) * cells->inverse[k] - cell->from[k]) * cell->over[k], 0), 1);
 }
@@ -293,14 +293,16 @@ static const double THIN = 0.4;
 
 static bool is_thin(const CoarseLevel *level)
 {
-    static const int times[3] = {1, 2, 1};
+    static const double times[3] = {1, 2, 1};
     double hold = 0, weight = 0;
     for (size_t k = 0; k < level->used; k++)
-        for (int q = 0; q < 27; q++) {
-            hold += times[q / 9] * times[q / 3 % 3] * times[q % 3] * (double)level->sums[k].hold[q];
-            if (q < 9)
-                weight += times[q / 3] * times[q % 3] * (double)level->sums[k].slope[0][q];
-        }
+        for (int b = 0; b < 3; b++)
+            for (int c = 0; c < 3; c++) {
+                const CoarseSums *sums = &level->sums[k];
+                weight += times[b] * times[c] * (double)sums->slope[0][3 * b + c];
+                for (int a = 0; a < 3; a++)
+                    hold += times[a] * times[b] * times[c] * (double)sums->hold[9 * a + 3 * b + c];
+            }
     return !(hold < THIN * weight);
 }
 
@@ -311,7 +313,7 @@ static void fill_matrix(const Cpu *cpu, const int cell[3], const CoarseSums *sum
 {
     const CoarseLevel *level = cpu->coarse;
     double over[3] = {0};
-    for (int k = 0; k < cpu->constants->dimensions; k++) {
+    for (int k = 0; k < 3 && k < cpu->constants->dimensions; k++) {
         const int cells =
             cell[k] < level->count[k] - 1 ? level->wide : level->inner[k] - cell[k] * level->wide;
         const double width =
