@@ -10,7 +10,7 @@
 #include <string.h>
 
 enum {
-    CORNERS = 8,          /* of a cell: bit k of a corner's number is 1 at its far end along axis k */
+    CORNERS = 8,          /* of a cell: bit k of a corner's number: the far end along axis k */
     CELLS_MOST = 1 << 21, /* of the box; in a larger box cells are wider */
     NONE = -1,
 };
@@ -26,7 +26,7 @@ enum { VALUE, RESIDUAL, DIRECTION, BENT, INVERSE, VECTORS };
 
 typedef float f4 __attribute__((vector_size(16)));
 
-/* Sums over particles of a cell. At x in [0, 1] along an axis corners have l_0 = 1 - x and l_1 = x, and their
+/* Sums over particles of a cell. At x in [0, 1] along an axis corners have l_0 = 1 - x and l_1 = x, and
    products l_a l_b are q_(a + b): (1 - x)^2, x (1 - x), x^2. The fourth float is unused. */
 typedef struct CellSums {
     f4 slope[3][3]; /* by axis k: sum weight q q over the two axes other than k */
@@ -43,7 +43,7 @@ typedef struct CoarseSums {
 typedef double CornerMatrix[CORNERS][CORNERS];
 
 struct CoarseLevel {
-    int inner[3], wide, count[3]; /* along an axis: cells of the grid; of these a coarse cell; coarse cells */
+    int inner[3], wide, count[3]; /* along an axis: cells of the grid; cells in a coarse cell; coarse cells */
     int along[3];                 /* nodes along an axis */
     size_t cells, nodes;          /* of the box */
     int64_t *fluid;               /* per cell: above 0 with fluid */
@@ -113,7 +113,7 @@ static CoarseLevel *create(const Constants *constants)
     return NULL;
 }
 
-/* Room for the cells with fluid and their nodes; false if memory is short. */
+/* Room for the cells with fluid and for nodes; false if memory is short. */
 static bool make_room(CoarseLevel *level)
 {
     if (level->used <= level->room)
@@ -134,7 +134,7 @@ static bool make_room(CoarseLevel *level)
 
 /* --- places --- */
 
-/* A coarse cell: x is at (place - from) * over in it, with the place in cells of the grid. */
+/* A coarse cell: x is at (place - from) * over, with the place in cells of the grid. */
 typedef struct CoarseCell {
     int at[3];
     float from[3], over[3];
@@ -160,7 +160,7 @@ static CoarseCell around(const Cpu *cpu, uint32_t cell)
     return found;
 }
 
-/* Not a number: `low`. Without libm: its fminf is a call on baseline x86-64. */
+/* Not a number: `low`. Without libm: fminf is a call on baseline x86-64. */
 static inline float bounded(float x, float low, float high)
 {
     return x > low ? (x < high ? x : high) : low;
@@ -225,7 +225,7 @@ static void add_cell(CoarseSums *to, const CellSums *sum)
         to->residual[c] += integer_of(sum->residual[c >> 2][c & 3]);
 }
 
-/* Cells of the grid in sequence mostly share a coarse cell: `part` has their sums, and is 0 again after. */
+/* Cells of the grid in sequence mostly share a coarse cell: `part` has the sums, and is 0 again after. */
 static void hand_over(CoarseSums *to, CoarseSums *part)
 {
     int64_t *const whole = (int64_t *)(void *)to, *const more = (int64_t *)(void *)part;
@@ -306,7 +306,7 @@ static void number_nodes(CoarseLevel *level)
         }
 }
 
-/* Where much holds v, few cells lie between surfaces, and a correction costs more iterations than it saves.
+/* Where much holds v, few cells lie between surfaces, and a correction saves no iterations.
    Heaved tanks of 20 layers have hold over weight of 0.20 in the plane and 0.25 in space, and gain. Those of
    10 layers have 0.43, with a loss of a quarter, and 0.52, with a gain of a quarter. The sum of l_a l_b over
    both corners is q_0 + 2 q_1 + q_2 = 1. */
@@ -329,7 +329,7 @@ static bool is_thin(const CoarseLevel *level)
 
 /* --- the system of the nodes --- */
 
-/* sum over the cell's particles of weight h grad . h grad + hold; `cell` is its place. */
+/* sum over the cell's particles of weight h grad . h grad + hold; `cell`: the place. */
 static void fill_matrix(const Cpu *cpu, const int cell[3], const CoarseSums *sums, CornerMatrix matrix)
 {
     const CoarseLevel *level = cpu->coarse;

@@ -24,7 +24,7 @@ class Scripts(unittest.TestCase):
     def test_figures(self):
         text = (ROOT / 'tools/figures').read_text()
         names = re.search(r'^figures=\((.*)\)$', text, re.M)[1].split()
-        functions = [name.replace('_', '-') for name in re.findall(r'^(paper\w+|splat\w+)\(\)', text, re.M)]
+        functions = [name.replace('_', '-') for name in re.findall(r'^(paper\w+|splat\w+|cost\w+)\(\)', text, re.M)]
         self.assertEqual(sorted(names), sorted(functions))
 
     def test_tests_that_scripts_and_lists_name(self):
