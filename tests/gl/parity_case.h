@@ -67,6 +67,7 @@ static inline void parity_settings(const ParityCase *c, WorldDef *def)
     wcsph->viscosity_form = (int)c->form;
     if (c->tolerance > 0)
         pbf_def(def)->tolerance = c->tolerance;
+    dfsph_def(def)->coarse = false; /* cpu alone has it */
 }
 
 static inline WorldDef parity_def(const ParityTable *table, const ParityCase *c)
