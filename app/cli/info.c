@@ -139,6 +139,111 @@ static void put_backends(Info *info, const WorldDef *scene, int gpu)
     headless_destroy(context);
 }
 
+/* A feature of a scene: `set` asks for it in a def. */
+typedef struct Feature {
+    const char *name;
+    void (*set)(WorldDef *def);
+} Feature;
+
+static void set_solid(WorldDef *def)
+{
+    def->solids[def->solid_count++] = (SolidDef){.kind = SOLID_SPHERE, .radius = 0.1, .axis = {0, 1, 0}};
+}
+
+static void set_emitters(WorldDef *def)
+{
+    def->pours = true;
+}
+
+static void set_drain(WorldDef *def)
+{
+    def->drain_count = 1;
+}
+
+static void set_periodic(WorldDef *def)
+{
+    def->periodic[0] = true;
+}
+
+static void set_no_slip(WorldDef *def)
+{
+    def->fluids[0].viscosity = 1;
+    def->wall_slip = SLIP_NONE;
+}
+
+static void set_tension(WorldDef *def)
+{
+    def->fluids[0].surface_tension = 0.07;
+    def->tension_model = TENSION_COLOUR_FIELD;
+}
+
+static void set_implicit(WorldDef *def)
+{
+    def->fluids[0].viscosity = 1;
+    def->viscosity_solver = VISCOSITY_IMPLICIT;
+}
+
+static void set_acceleration(WorldDef *def)
+{
+    def->acceleration = true;
+}
+
+static const Feature features[] = {
+    {"solids", set_solid},
+    {"emitters", set_emitters},
+    {"drains", set_drain},
+    {"periodic sides", set_periodic},
+    {"no-slip walls", set_no_slip},
+    {"surface tension", set_tension},
+    {"implicit viscosity", set_implicit},
+    {"acceleration", set_acceleration},
+};
+
+/* A row: yes or no by backend. */
+static void put_feature(Info *info, const char *name, const WorldDef *def)
+{
+    json_t *row = json_pack("{s:s}", "name", name);
+    WorldDef on = *def;
+    json_array_append_new(info->list, row);
+    if (!info->quiet)
+        printf("  %-20s", name);
+    for (const Named *backend = world_backends(); backend->name; backend++) {
+        snprintf(on.backend, sizeof on.backend, "%s", backend->name);
+        const bool can = world_can(&on, NULL);
+        json_object_set_new(row, backend->name, json_boolean(can));
+        if (!info->quiet)
+            printf("%-10s", can ? "yes" : "no");
+    }
+    if (!info->quiet)
+        putchar('\n');
+}
+
+/* What each backend has, by world_can of a small world. All backends have the first method. */
+static void put_features(Info *info)
+{
+    const WorldDef small = small_def();
+    begin_list(info, "what the backends have", "features");
+    if (!info->quiet) {
+        printf("  %-20s", "");
+        for (const Named *backend = world_backends(); backend->name; backend++)
+            printf("%-10s", backend->name);
+        putchar('\n');
+    }
+    for (const Named *method = world_methods(); method->name; method++) {
+        char name[NAME_SIZE + 8];
+        WorldDef def = small;
+        snprintf(name, sizeof name, "method %s", method->name);
+        snprintf(def.method, sizeof def.method, "%s", method->name);
+        put_feature(info, name, &def);
+    }
+    for (size_t k = 0; k < sizeof features / sizeof *features; k++) {
+        WorldDef def = small;
+        snprintf(def.method, sizeof def.method, "%s", world_methods()->name);
+        features[k].set(&def);
+        put_feature(info, features[k].name, &def);
+    }
+}
+
 static void put_methods(Info *info)
 {
     put_named(info, "methods", "methods", world_methods());
@@ -237,6 +342,7 @@ static void put_scene(Info *info, const Scene *scene, const Notes *notes)
 static void put_all(Info *info, const Scene *scene, const Notes *notes, int gpu)
 {
     put_backends(info, scene ? &scene->world : NULL, gpu);
+    put_features(info);
     put_methods(info);
     put_views(info);
     put_metrics(info);

@@ -287,6 +287,21 @@ class Info(Case):
         for word in ["cpu", "mueller", "spheres", "renderer", "threads", "solver.sound_speed = 12.5 m/s"]:
             self.assertIn(word, done.stdout)
 
+    def test_what_the_backends_have(self):
+        """The table says what a run says: a scene with what a backend lacks is refused."""
+        scenes = {'solids': 'pillar', 'periodic sides': 'poiseuille', 'surface tension': 'cases/drop', 'implicit viscosity': 'goop'}
+        done = self.slosh_out('info', '--json', '-', '--quiet', code=0)
+        rows = {row['name']: row for row in json.loads(done.stdout)['features']}
+        self.assertTrue(all(row['cpu'] for row in rows.values()))
+        self.assertTrue(rows['method mueller']['fragment'])
+        for name, scene in scenes.items():
+            for backend in 'compute', 'fragment':
+                has = rows[name][backend]
+                self.slosh_out('run', scene, '--method', 'mueller', '--backend', backend, '--particles', '300', '--time', '0.001', '-o',
+                               self.path('o.h5part'), '--quiet', code=0 if has else 2)
+        self.assertEqual([rows[name]['fragment'] for name in scenes], [False] * len(scenes))
+        self.assertEqual([rows[f'method {name}']['compute'] for name in ('wcsph', 'dfsph', 'pbf')], [True] * 3)
+
     def test_help_lists_what_works(self):
         done = self.slosh_out("help", code=0)
         for word in ["play", "render", "run", "bench", "replay", "export", "info", "validate", "chart", "stability", "fit", "devices"]:
