@@ -289,7 +289,9 @@ class Info(Case):
 
     def test_what_the_backends_have(self):
         """The table says what a run says: a scene with what a backend lacks is refused."""
-        scenes = {'solids': 'pillar', 'periodic sides': 'poiseuille', 'surface tension': 'cases/drop', 'implicit viscosity': 'goop'}
+        scenes = {'solids': ['pillar'], 'periodic sides': ['poiseuille'],
+                  'surface tension': ['drop', '--set', 'fluids[0].surface_tension=0.07', '--set', 'solver.surface_tension=cohesion'],
+                  'implicit viscosity': ['drop', '--set', 'solver.viscosity=implicit']}
         done = self.slosh_out('info', '--json', '-', '--quiet', code=0)
         rows = {row['name']: row for row in json.loads(done.stdout)['features']}
         self.assertTrue(all(row['cpu'] for row in rows.values()))
@@ -297,7 +299,7 @@ class Info(Case):
         for name, scene in scenes.items():
             for backend in 'compute', 'fragment':
                 has = rows[name][backend]
-                self.slosh_out('run', scene, '--method', 'mueller', '--backend', backend, '--particles', '300', '--time', '0.001', '-o',
+                self.slosh_out('run', *scene, '--method', 'mueller', '--backend', backend, '--particles', '300', '--time', '0.001', '-o',
                                self.path('o.h5part'), '--quiet', code=0 if has else 2)
         self.assertEqual([rows[name]['fragment'] for name in scenes], [False] * len(scenes))
         self.assertEqual([rows[f'method {name}']['compute'] for name in ('wcsph', 'dfsph', 'pbf')], [True] * 3)
