@@ -36,12 +36,9 @@ float weight_of(Splat hit, float nearest)
 #if WEIGHTS == 0
     return foremost(hit, nearest, 1e-5) ? 1.0 : 0.0;
 #else
-    float w1 = 1.0 - sqrt(max(1.0 - hit.inside2, 0.0)); // eq. 6
-#if WEIGHTS == 1
-    return max(w1, least_weight);
-#else
-    return max(w1 * (nearest + eps - hit.depth) / eps, least_weight); // eq. 7
-#endif
+    float w1 = WEIGHTS == 3 ? 1.0 : 1.0 - sqrt(max(1.0 - hit.inside2, 0.0)); // eq. 6
+    float w2 = WEIGHTS == 1 ? 1.0 : (nearest + eps - hit.depth) / eps;         // eq. 7
+    return max(w1 * w2, least_weight);
 #endif
 }
 

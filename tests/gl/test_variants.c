@@ -532,7 +532,7 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
         VIEW("splat", splat_def(&v)->shape = (SplatShape)shape, splat_def(&v)->level = 0.3,
              splat_def(&v)->sprite = SPLAT_QUAD, v.color_by = SCALAR_FLUID);
     }
-    for (int weights = SPLAT_NO_WEIGHTS; weights <= SPLAT_W1; weights++)
+    for (int weights = SPLAT_NO_WEIGHTS; weights <= SPLAT_W2; weights++)
         VIEW("splat", splat_def(&v)->weights = (SplatWeights)weights);
     for (int shading = SPLAT_WATER; shading <= SPLAT_JELLY; shading++) {
         VIEW("splat", splat_def(&v)->shading = (SplatShading)shading, v.floor = true);

@@ -280,6 +280,8 @@ static inline double weight_of(const SplatScene *scene, const SplatHit *hit, dou
         return hit->depth <= nearest;
     case SPLAT_W1:
         return fmax(1 - hit->rho, least);
+    case SPLAT_W2:
+        return fmax((nearest + eps - hit->depth) / eps, least);
     default:
         return fmax((1 - hit->rho) * (nearest + eps - hit->depth) / eps, least);
     }

@@ -3,7 +3,7 @@
 #include "sim/base/key_rows.h"
 
 const char *const splat_weights_names[] = {
-    [SPLAT_NO_WEIGHTS] = "none", [SPLAT_W1] = "w1", [SPLAT_W1W2] = "w1w2", NULL};
+    [SPLAT_NO_WEIGHTS] = "none", [SPLAT_W1] = "w1", [SPLAT_W1W2] = "w1w2", [SPLAT_W2] = "w2", NULL};
 const char *const splat_shape_names[] = {[SPLAT_PERSPECTIVE] = "perspective",
                                          [SPLAT_PAPER] = "paper",
                                          [SPLAT_ELLIPSOID] = "ellipsoid",
@@ -46,10 +46,10 @@ const Key splat_keys[] = {
            "and eps, weights, drops and ellipsoids have no part in it"),
     NUMBER("view.splat.eps", L | O, "radii", 0, 10, AT(eps), "how far below the surface spheres still blend"),
     CHOICE_OF("view.splat.weights", L | KEY_INDEX | KEY_REBUILD, splat_weights_names, AT(weights),
-           "w1: a sphere's share falls to its rim; w1w2: and with its depth; none: each pixel is its foremost sphere's"),
+           "w1: a sphere's share falls to its rim; w2: with its depth; w1w2: with both; none: each pixel is its foremost sphere's"),
     CHOICE_OF("view.splat.shape", L | KEY_INDEX | KEY_REBUILD, splat_shape_names, AT(shape),
            "perspective: exact spheres; paper: circles on the screen; ellipsoid: stretched as their neighbours lie; "
-           "auto: ellipsoid, but perspective with a level, and opaque with weights none or w1"),
+           "auto: ellipsoid, but perspective with a level, and opaque with other weights than w1w2"),
     CHOICE_OF("view.splat.sprite", L | KEY_INDEX | KEY_REBUILD, splat_sprite_names, AT(sprite),
            "quad; point: a GL point, which drivers cut at some size; auto: points on a software driver while they are small, else quads"),
     CHOICE_OF("view.splat.show", L | KEY_INDEX | KEY_REBUILD, splat_show_names, AT(show), "a stage of the way to the picture"),
