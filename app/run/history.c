@@ -42,6 +42,8 @@ struct History {
     Scene *base;            /* NULL: no base and no states */
     size_t count, capacity; /* of the states; the oldest is first */
     HistoryState **states;
+    WorldSaving saving; /* of the newest state, on its way from a GPU */
+    double saving_ms;   /* time for its parts so far */
 };
 
 /* Makes room for one more element of `size` bytes. Returns false if memory is short. */
@@ -90,10 +92,17 @@ static void forget_base(History *history)
     history->base = NULL;
 }
 
+static void forget_saving(History *history, const HistoryState *states)
+{
+    if (history->saving.to == &states->state)
+        history->saving.to = NULL;
+}
+
 static void kept_free(History *history, HistoryState *states)
 {
     if (!states)
         return;
+    forget_saving(history, states);
     history->bytes -= states->bytes;
     settings_release(history, states->settings);
     world_state_free(&states->state);
@@ -112,6 +121,7 @@ void history_destroy(History *history)
         return;
     forget_states(history, 0);
     forget_base(history);
+    world_save_end(&history->saving);
     free(history->states);
     free(history->places);
     free(history);
@@ -161,6 +171,7 @@ void history_begin(History *history, const WorldInfo *info)
 {
     forget_states(history, 0);
     forget_base(history);
+    world_save_end(&history->saving); /* the next world may step on a thread without a context */
     history->bytes = history->place_count = 0;
     history->before = 0;
     history->work_ms = 0;
@@ -227,6 +238,7 @@ static HistoryState *make_room(History *history, size_t more)
     while (history->bytes + more > history->bytes_most && history->count > 0) {
         kept_free(history, again);
         again = thin_out(history);
+        forget_saving(history, again);
         history->bytes -= again->bytes;
         again->bytes = 0;
     }
@@ -338,7 +350,21 @@ static void count_copy(History *history, double ms, size_t bytes)
     history->copies++;
 }
 
-/* Fills `kept` with the present state. */
+/* Reads a part of the newest state, or `waits` for the rest. Without the GPU's answer the state is lost. */
+static void save_on(History *history, bool waits)
+{
+    const double began = wall_ms();
+    if (!history->saving.to)
+        return;
+    const bool answered = world_save_go_on(&history->saving, waits);
+    history->saving_ms += wall_ms() - began;
+    if (!answered)
+        forget_states(history, history->count - 1);
+    else if (!history->saving.to)
+        count_copy(history, history->saving_ms, history->states[history->count - 1]->bytes);
+}
+
+/* Fills `states` with the present state, or begins to. */
 static bool fill(History *history, HistoryState *states, World *world, const Scene *scene, size_t next)
 {
     Error none;
@@ -346,7 +372,8 @@ static bool fill(History *history, HistoryState *states, World *world, const Sce
     settings_release(history, states->settings);
     states->settings = NULL;
     if (!grow((void **)&history->states, history->count, &history->capacity, sizeof(HistoryState *)) ||
-        !world_save(world, &states->state, &none) || !(states->settings = settings_of(history, scene)))
+        !world_save_begin(world, &states->state, &history->saving, &none) ||
+        !(states->settings = settings_of(history, scene)))
         return false;
     states->place = history_last(history);
     states->next = next;
@@ -354,7 +381,9 @@ static bool fill(History *history, HistoryState *states, World *world, const Sce
         bytes_of(states->state.capacity, &scene->world) + states->state.births.capacity * sizeof(Birth);
     states->work_ms = history->work_ms;
     history->bytes += states->bytes;
-    count_copy(history, wall_ms() - began, states->bytes);
+    history->saving_ms = wall_ms() - began;
+    if (!history->saving.to)
+        count_copy(history, history->saving_ms, states->bytes);
     return true;
 }
 
@@ -367,10 +396,12 @@ static bool is_due(const History *history, bool now)
 
 void history_keep(History *history, World *world, const Scene *scene, size_t next, bool now)
 {
+    save_on(history, false);
     if (!is_due(history, now) || !world_is_valid(world)) /* waits, so that the copy is timed alone */
         return;
     WorldInfo info;
     world_info(world, &info);
+    save_on(history, true);
     history->state_bytes = bytes_of(info.count, &scene->world) + world_births_bytes(world);
     if (history->count == 0)
         forget_base(history);
@@ -426,10 +457,10 @@ uint64_t history_state_before(const History *history, uint64_t place)
     return history->count > 0 ? kept_before(history, place)->place : history_last(history);
 }
 
-bool history_load(const History *history, uint64_t place, World **world, Scene *scene, size_t *next,
-                  Error *error)
+bool history_load(History *history, uint64_t place, World **world, Scene *scene, size_t *next, Error *error)
 {
     Scene then;
+    save_on(history, true);
     if (history->count == 0)
         return error_set(error, "no state of the past is kept");
     const HistoryState *states = kept_before(history, place);

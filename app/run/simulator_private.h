@@ -56,7 +56,8 @@ void history_add_place(History *history, const WorldInfo *info, double frame_ms)
 
 /* Keeps the world's present state at the last place if a state is due, or if `now`. `scene`: with the changes
    by commands, of which `next` were obeyed. The state is not kept if memory is short or the state is unsound.
-   Waits for a GPU, as the begin of the next frame would. */
+   Waits for a GPU's step, as the begin of the next frame would. The particles of a GPU come with later calls,
+   a part at each: call at the begin of each frame. */
 void history_keep(History *history, World *world, const Scene *scene, size_t next, bool now);
 
 /* The oldest reachable place, and the last place; both are the last if no state is kept. */
@@ -75,8 +76,7 @@ uint64_t history_state_before(const History *history, uint64_t place);
 
 /* Loads the state of history_state_before(place) into the world; sets `scene` and *next accordingly. Returns
    false with the reason, with no changes. */
-bool history_load(const History *history, uint64_t place, World **world, Scene *scene, size_t *next,
-                  Error *error);
+bool history_load(History *history, uint64_t place, World **world, Scene *scene, size_t *next, Error *error);
 
 /* Forgets the places after `place`, which becomes the last. */
 void history_cut(History *history, uint64_t place);

@@ -310,6 +310,22 @@ void world_save_numbers(World *world, WorldNumbers *numbers);
    (world_is_valid). */
 bool world_save(World *world, WorldState *state, Error *error);
 
+/* A world_save without waiting for a GPU: the particles come later, a part at each call. Keeps the device's
+   memory for the next save. Zero-initialise. */
+typedef struct WorldSaving {
+    WorldState *to; /* NULL: nothing is under way */
+    const struct BackendCopy *by;
+    void *copy;
+} WorldSaving;
+
+/* Saves the present state: the numbers now, the particles by calls of world_save_go_on, without the world.
+   With nothing under way after the begin the state is whole. An earlier save under way is lost.
+   world_save_go_on: reads a part, or `waits` for all; false without an answer of the GPU: the state is lost.
+   world_save_end: frees the memory. */
+bool world_save_begin(World *world, WorldState *state, WorldSaving *saving, Error *error);
+bool world_save_go_on(WorldSaving *saving, bool waits);
+void world_save_end(WorldSaving *saving);
+
 /* Loads a state into a world made from the same def, except for live settings. Returns false with the
    reason: a different version, different particles or non-finite numbers; the world is unchanged. */
 bool world_load(World *world, const WorldState *state, Error *error);

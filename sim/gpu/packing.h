@@ -26,11 +26,15 @@ typedef struct ColumnPacking {
 /* Columns of the method that a table has. */
 ColumnRows packing_rows(const ColumnPacking *packing, const struct Method *method);
 
-/* Packs columns into a buffer's entries, or unpacks: particle i is entry i, or place[i]. NULL columns are
-   skipped. */
+/* True if a buffer has one of these columns, which is not NULL. */
+bool packing_has(const ColumnPacking *packing, int buffer, const struct Method *method,
+                 const ParticleColumns *columns);
+
+/* Packs columns into a buffer's entries, or unpacks particles [begin, end): particle i is entry i, or
+   place[i]. NULL columns are skipped. */
 void packing_pack(const ColumnPacking *packing, int buffer, const struct Method *method,
                   const ParticleColumns *from, size_t count, const ParticleId *place, uint32_t *entries);
 void packing_unpack(const ColumnPacking *packing, int buffer, const struct Method *method,
-                    const uint32_t *entries, size_t count, const ParticleColumns *to);
+                    const uint32_t *entries, size_t begin, size_t end, const ParticleColumns *to);
 
 #endif

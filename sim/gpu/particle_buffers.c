@@ -9,23 +9,36 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool mailbox_create(Mailbox *mailbox, const char *label, size_t bytes)
+enum { UNIT = 32 }; /* some drivers round uniform blocks up to as many bytes */
+
+static GLuint labelled(const char *label)
+{
+    GLuint buffer;
+    glCreateBuffers(1, &buffer);
+    glObjectLabel(GL_BUFFER, buffer, -1, label);
+    return buffer;
+}
+
+bool mailbox_create_copy(Mailbox *mailbox, const char *label, size_t bytes)
 {
     const GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-    mailbox->bytes = (bytes + 31) / 32 * 32; /* some drivers round uniform blocks up to as much */
-    const GLsizeiptr size = (GLsizeiptr)mailbox->bytes;
-    glCreateBuffers(1, &mailbox->buffer);
-    glObjectLabel(GL_BUFFER, mailbox->buffer, -1, label);
-    glCreateBuffers(1, &mailbox->copy);
-    glObjectLabel(GL_BUFFER, mailbox->copy, -1, label);
-    void *zeros = calloc(1, mailbox->bytes);
-    glNamedBufferStorage(mailbox->buffer, size, zeros, GL_DYNAMIC_STORAGE_BIT);
-    free(zeros);
-    glNamedBufferStorage(mailbox->copy, size, NULL, access | GL_CLIENT_STORAGE_BIT);
+    mailbox->bytes = (bytes + UNIT - 1) / UNIT * UNIT;
+    mailbox->copy = labelled(label);
+    glNamedBufferStorage(mailbox->copy, (GLsizeiptr)mailbox->bytes, NULL, access | GL_CLIENT_STORAGE_BIT);
     const bool none = gl_errors_take(GL_OUT_OF_MEMORY) > 0;
     if (!none)
-        mailbox->mapped = glMapNamedBufferRange(mailbox->copy, 0, size, access);
+        mailbox->mapped = glMapNamedBufferRange(mailbox->copy, 0, (GLsizeiptr)mailbox->bytes, access);
     return mailbox->mapped != NULL;
+}
+
+bool mailbox_create(Mailbox *mailbox, const char *label, size_t bytes)
+{
+    const size_t rounded = (bytes + UNIT - 1) / UNIT * UNIT;
+    void *zeros = calloc(1, rounded);
+    mailbox->buffer = labelled(label);
+    glNamedBufferStorage(mailbox->buffer, (GLsizeiptr)rounded, zeros, GL_DYNAMIC_STORAGE_BIT);
+    free(zeros);
+    return mailbox_create_copy(mailbox, label, rounded);
 }
 
 void mailbox_destroy(Mailbox *mailbox)
@@ -41,6 +54,11 @@ void mailbox_send(Mailbox *mailbox)
     mailbox_forget(mailbox);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glCopyNamedBufferSubData(mailbox->buffer, mailbox->copy, 0, 0, (GLsizeiptr)mailbox->bytes);
+    mailbox_close(mailbox);
+}
+
+void mailbox_close(Mailbox *mailbox)
+{
     mailbox->fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
 
@@ -182,6 +200,13 @@ static int parts_of(const ColumnPacking *packing, int buffer, const Method *meth
     return count;
 }
 
+bool packing_has(const ColumnPacking *packing, int buffer, const Method *method,
+                 const ParticleColumns *columns)
+{
+    PackedPart part[PACKED_WORDS];
+    return parts_of(packing, buffer, method, *columns, part) > 0;
+}
+
 void packing_pack(const ColumnPacking *packing, int buffer, const Method *method, const ParticleColumns *from,
                   size_t count, const ParticleId *place, uint32_t *entries)
 {
@@ -194,12 +219,12 @@ void packing_pack(const ColumnPacking *packing, int buffer, const Method *method
 }
 
 void packing_unpack(const ColumnPacking *packing, int buffer, const Method *method, const uint32_t *entries,
-                    size_t count, const ParticleColumns *to)
+                    size_t begin, size_t end, const ParticleColumns *to)
 {
     PackedPart part[PACKED_WORDS];
     const size_t words = (size_t)packing->words[buffer];
     for (int n = parts_of(packing, buffer, method, *to, part); n-- > 0;)
-        for (size_t i = 0; i < count; i++)
+        for (size_t i = begin; i < end; i++)
             put_word(entries[words * i + (size_t)part[n].word], part[n].packed->type, part[n].type,
                      part[n].array, i);
 }

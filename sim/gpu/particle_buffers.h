@@ -33,6 +33,10 @@ typedef struct Mailbox {
 bool mailbox_create(Mailbox *mailbox, const char *label, size_t bytes);
 void mailbox_destroy(Mailbox *mailbox); /* a zeroed struct is allowed */
 
+/* The copy alone, with `buffer` 0: the caller copies from other buffers, then calls mailbox_close. */
+bool mailbox_create_copy(Mailbox *mailbox, const char *label, size_t bytes);
+void mailbox_close(Mailbox *mailbox);
+
 /* Copies the passes' output so far; an earlier copy is lost. */
 void mailbox_send(Mailbox *mailbox);
 

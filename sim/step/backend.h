@@ -174,6 +174,17 @@ typedef struct Excess {
 enum { FLOWS_MAX = 256 };
 #define FLOW_LATER SIZE_MAX
 
+/* A save without waiting for the GPU. */
+typedef struct BackendCopy {
+    /* Starts to copy the particles for the columns `to`; an earlier copy is lost. *copy: NULL at first, then
+       kept from call to call. Returns false if memory is short. */
+    bool (*begin)(void *state, const ParticleColumns *to, void **copy);
+    /* Reads a part after the arrival, or `waits` for the whole. Needs no state. Returns false without an
+       answer of the device. */
+    bool (*go_on)(void *copy, const ParticleColumns *to, bool waits, bool *whole);
+    void (*free)(void *copy); /* NULL is allowed */
+} BackendCopy;
+
 typedef struct Backend {
     const char *name, *help;
     const Key *keys; /* of the backend's settings, ended by a row without a path; NULL: none */
@@ -269,6 +280,7 @@ typedef struct Backend {
        with nothing done, if memory is short. */
     bool (*save)(void *state, const ParticleColumns *to);
     bool (*load)(void *state, const ParticleColumns *from, size_t count, size_t guarded);
+    const BackendCopy *copies; /* NULL: `save` does not wait for long */
     /* `mark` keeps a copy of the particles on the device, `back` restores the copy like `load`. Both NULL:
        use `save` and `load`. */
     bool (*mark)(void *state, Error *error);

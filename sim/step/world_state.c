@@ -263,16 +263,58 @@ static bool not_sound(const World *world, Error *error)
                      world_time_at(world, (double)world->step), words);
 }
 
-bool world_save(World *world, WorldState *state, Error *error)
+/* `saving`: NULL to wait. */
+static bool save_particles(World *world, WorldState *state, WorldSaving *saving)
+{
+    const Backend *backend = world->backend;
+    if (!saving || !backend->copies)
+        return backend->save(world->state, &state->particles);
+    if (saving->by != backend->copies)
+        world_save_end(saving);
+    saving->by = backend->copies;
+    if (!backend->copies->begin(world->state, &state->particles, &saving->copy))
+        return false;
+    saving->to = state;
+    return true;
+}
+
+static bool save(World *world, WorldState *state, WorldSaving *saving, Error *error)
 {
     if (!world_is_valid(world))
         return not_sound(world, error);
     if (!world_state_reserve(state, &world->def, world->count) ||
-        !births_copy(&world->births, &state->births) ||
-        !world->backend->save(world->state, &state->particles))
+        !births_copy(&world->births, &state->births) || !save_particles(world, state, saving))
         return error_set(error, "no memory for the state of %zu particles", world->count);
     world_save_numbers(world, &state->numbers);
     return true;
+}
+
+bool world_save(World *world, WorldState *state, Error *error)
+{
+    return save(world, state, NULL, error);
+}
+
+bool world_save_begin(World *world, WorldState *state, WorldSaving *saving, Error *error)
+{
+    saving->to = NULL;
+    return save(world, state, saving, error);
+}
+
+bool world_save_go_on(WorldSaving *saving, bool waits)
+{
+    bool whole = true;
+    const bool answered =
+        !saving->to || saving->by->go_on(saving->copy, &saving->to->particles, waits, &whole);
+    if (whole || !answered)
+        saving->to = NULL;
+    return answered;
+}
+
+void world_save_end(WorldSaving *saving)
+{
+    if (saving->by)
+        saving->by->free(saving->copy);
+    *saving = (WorldSaving){.to = NULL};
 }
 
 void world_recompute_derived(World *world)

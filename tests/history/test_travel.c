@@ -3,6 +3,8 @@
 #include "tests/history/history_rig.h"
 #include "tests/program.h"
 
+#include "sim/step/method.h"
+
 enum { MIB = 1 << 20, FRAMES = 24, JUMPS = 30 };
 
 #define BOX                                                                                                  \
@@ -577,6 +579,139 @@ static void another_backend_begins_a_past(void **state)
     recording_destroy(&recording);
 }
 
+/* A history of a world on the GPU, a frame at a time. */
+typedef struct Kept {
+    Scene scene;
+    World *world;
+    History *history;
+} Kept;
+
+static void kept_begin(const Kept *kept)
+{
+    WorldInfo info;
+    world_info(kept->world, &info);
+    history_begin(kept->history, &info);
+}
+
+static void kept_open(Kept *kept, const char *method)
+{
+    static const char scene[] =
+        "box: {size: [1, 1, 1]}\n"
+        "particles: {spacing: 0.02}\n"
+        "fluids: [{viscosity: 1, fill: [{block: {min: [-0.5, 0, -0.5], max: [0, 0.6, 0.5]}}]}]\n"
+        "solver: {method: %s, backend: compute, sound_speed: 15, step: {dt: 0.001, substeps: 1}}\n";
+    SceneSettings none = {.count = 0};
+    char text[512];
+    snprintf(text, sizeof text, scene, method);
+    *kept = (Kept){.history = history_create((size_t)512 * MIB)};
+    assert_non_null(kept->history);
+    must(scene_parse("a.yaml", text, strlen(text), &none, &kept->scene, NULL, &error));
+    must((kept->world = world_create(&kept->scene.world, &error)) != NULL);
+    kept_begin(kept);
+}
+
+static void kept_frame(Kept *kept)
+{
+    WorldInfo info;
+    must(world_step(kept->world, NULL, &error));
+    world_info(kept->world, &info);
+    history_add_place(kept->history, &info, 0);
+}
+
+static void kept_close(Kept *kept)
+{
+    history_destroy(kept->history);
+    world_destroy(kept->world);
+}
+
+/* Each saved column of each particle, whatever the order. */
+static bool same_particles(const WorldDef *def, WorldState *a, WorldState *b)
+{
+    const ColumnRows rows = columns_saved(def);
+    size_t *at = calloc(a->count + 1, sizeof *at);
+    bool same = a->count == b->count;
+    assert_non_null(at);
+    for (size_t i = 0; i < b->count; i++)
+        at[b->particles.id[i]] = i;
+    for (int r = 0; r < rows.count; r++)
+        for (int k = 0; k < rows.row[r]->components; k++) {
+            const size_t size = column_size(rows.row[r]);
+            const char *one = *column_array(&a->particles, rows.row[r], k);
+            const char *other = *column_array(&b->particles, rows.row[r], k);
+            for (size_t i = 0; i < a->count && same; i++)
+                same = memcmp(one + size * i, other + size * at[a->particles.id[i]], size) == 0;
+        }
+    free(at);
+    return same;
+}
+
+/* Loaded after 0, 1, ... frames: parts of the state are still under way, then none. */
+static void particles_of_a_gpu_come_a_part_at_a_time(void **state)
+{
+    enum { LATEST = 4 };
+    static const char *const methods[] = {"mueller", "wcsph", "dfsph, viscosity: implicit"};
+    (void)state;
+    for (int m = 0; m < 3; m++) {
+        Kept kept;
+        size_t next;
+        kept_open(&kept, methods[m]);
+        WorldState then = {.count = 0}, now = {.count = 0};
+        kept_frame(&kept);
+        must(world_save(kept.world, &then, &error));
+        for (int frames = 0; frames <= LATEST; frames++) {
+            kept_begin(&kept);
+            const GlCalls before = gl_calls();
+            history_keep(kept.history, kept.world, &kept.scene, 0, true);
+            for (int i = 0; i < frames; i++) {
+                kept_frame(&kept);
+                history_keep(kept.history, kept.world, &kept.scene, 0, false);
+            }
+            assert_int_equal(gl_calls_since(&before).readbacks, 0);
+            assert_int_equal(history_figures(kept.history).states, 1);
+            must(history_load(kept.history, 0, &kept.world, &kept.scene, &next, &error));
+            must(world_save(kept.world, &now, &error));
+            if (!same_particles(&kept.scene.world, &then, &now))
+                fail_msg("%s: other bits %d frames later", methods[m], frames);
+            assert_true(gl_calls_since(&before).readbacks > 0); /* of the last save: the count counts */
+        }
+        world_state_free(&then);
+        world_state_free(&now);
+        kept_close(&kept);
+    }
+}
+
+/* The world goes, or the place does, while the state is under way. */
+static void a_state_under_way_needs_no_world(void **state)
+{
+    (void)state;
+    Kept kept;
+    size_t next;
+    kept_open(&kept, "wcsph");
+    const uint64_t first = world_hash(kept.world);
+    history_keep(kept.history, kept.world, &kept.scene, 0, true);
+    kept_frame(&kept);
+    world_destroy(kept.world);
+    must((kept.world = world_create(&kept.scene.world, &error)) != NULL);
+    kept_frame(&kept);
+    must(history_load(kept.history, 0, &kept.world, &kept.scene, &next, &error));
+    assert_true(world_hash(kept.world) == first);
+    history_cut(kept.history, 0);
+
+    kept_frame(&kept);
+    history_keep(kept.history, kept.world, &kept.scene, 0, true);
+    history_cut(kept.history, 0); /* forgets the state that is under way */
+    assert_int_equal(history_figures(kept.history).states, 1);
+    kept_frame(&kept);
+    const uint64_t second = world_hash(kept.world);
+    history_keep(kept.history, kept.world, &kept.scene, 0, true);
+    kept_frame(&kept);
+    must(history_load(kept.history, 1, &kept.world, &kept.scene, &next, &error));
+    assert_true(world_hash(kept.world) == second);
+    kept_frame(&kept);
+    history_keep(kept.history, kept.world, &kept.scene, 0, true);
+    kept_close(&kept); /* with a state under way */
+}
+
 static int ascending(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
@@ -674,6 +809,8 @@ int main(void)
         cmocka_unit_test(without_a_past_it_says_so),
         cmocka_unit_test(little_memory_holds_little),
         cmocka_unit_test(another_backend_begins_a_past),
+        cmocka_unit_test(particles_of_a_gpu_come_a_part_at_a_time),
+        cmocka_unit_test(a_state_under_way_needs_no_world),
     };
     return cmocka_run_group_tests_name("history.travel", tests, rig_setup, rig_teardown);
 }

@@ -276,8 +276,10 @@ static void download(const Compute *c, const ParticleColumns *to, uint32_t *entr
 {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     for (int b = POSITION; b < BUFFERS; b++) {
+        if (!packing_has(&packing, b, c->constants->method, to))
+            continue;
         glGetNamedBufferSubData(buffer_of(c, b), 0, (GLsizeiptr)(entry_bytes(b) * c->count), entries);
-        packing_unpack(&packing, b, c->constants->method, entries, c->count, to);
+        packing_unpack(&packing, b, c->constants->method, entries, 0, c->count, to);
     }
     for (size_t i = 0; to->volume && i < c->count; i++) /* m3, for the views */
         to->volume[i] /= (float)c->constants->unit_volume;
@@ -346,6 +348,118 @@ bool compute_save(void *state, const ParticleColumns *to)
     free(entries);
     return entries != NULL;
 }
+
+/* A copy of the saved columns in memory shared by GPU and CPU. The world may go before the copy has been
+   read. */
+typedef struct ComputeCopy {
+    Mailbox mailbox;
+    bool arrived;
+    const Method *method;
+    ComputeOwn own;
+    size_t count, done;            /* particles; read particles */
+    size_t at[BUFFERS], at_column; /* bytes before a buffer's entries, before the method's first column */
+} ComputeCopy;
+
+enum { COPY_PART = 16384, COPY_PARTS = 32 }; /* particles read at once, at least; parts at most */
+
+static void copy_free(void *copying)
+{
+    ComputeCopy *copy = copying;
+    if (copy)
+        mailbox_destroy(&copy->mailbox);
+    free(copy);
+}
+
+/* Finds the places of the columns; returns the bytes. */
+static size_t copy_layout(ComputeCopy *copy, const Compute *c, const ParticleColumns *to)
+{
+    size_t bytes = 0;
+    copy->arrived = false;
+    copy->method = c->constants->method;
+    copy->own = c->own;
+    copy->count = c->count;
+    copy->done = 0;
+    for (int b = POSITION; b < BUFFERS; b++) {
+        copy->at[b] = bytes;
+        bytes += packing_has(&packing, b, copy->method, to) ? entry_bytes(b) * c->count : 0;
+    }
+    copy->at_column = bytes;
+    return bytes + 4 * (size_t)c->own.count * c->count;
+}
+
+static void copy_send(ComputeCopy *copy, const Compute *c, const ParticleColumns *to)
+{
+    const GLuint out = copy->mailbox.copy;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    for (int b = POSITION; b < BUFFERS; b++)
+        if (packing_has(&packing, b, copy->method, to))
+            glCopyNamedBufferSubData(buffer_of(c, b), out, 0, (GLintptr)copy->at[b],
+                                     (GLsizeiptr)(entry_bytes(b) * c->count));
+    for (int k = 0; k < c->own.count; k++)
+        glCopyNamedBufferSubData(c->now.own, out, place_of(c, k, 0),
+                                 (GLintptr)(copy->at_column + 4 * (size_t)k * c->count),
+                                 (GLsizeiptr)(4 * c->count));
+    mailbox_close(&copy->mailbox);
+}
+
+static bool copy_begin(void *state, const ParticleColumns *to, void **copying)
+{
+    Compute *c = state;
+    ComputeCopy *copy = *copying ? *copying : calloc(1, sizeof *copy);
+    *copying = copy;
+    if (!copy)
+        return false;
+    const size_t bytes = copy_layout(copy, c, to);
+    mailbox_forget(&copy->mailbox);
+    if (bytes > copy->mailbox.bytes) {
+        mailbox_destroy(&copy->mailbox);
+        if (!mailbox_create_copy(&copy->mailbox, "saved particles", bytes)) {
+            copy_free(copy);
+            *copying = NULL;
+            return false;
+        }
+    }
+    copy->arrived = bytes == 0;
+    if (bytes > 0)
+        copy_send(copy, c, to);
+    return true;
+}
+
+static void copy_read(const ComputeCopy *copy, size_t end, const ParticleColumns *to)
+{
+    const char *mapped = copy->mailbox.mapped;
+    const size_t begin = copy->done;
+    for (int b = POSITION; b < BUFFERS; b++)
+        packing_unpack(&packing, b, copy->method, (const uint32_t *)(const void *)(mapped + copy->at[b]),
+                       begin, end, to);
+    for (int k = 0; k < copy->own.count; k++) {
+        float *column = to->own[copy->own.place[k]];
+        const float *from = (const float *)(const void *)(mapped + copy->at_column) + (size_t)k * copy->count;
+        if (column)
+            memcpy(column + begin, from + begin, (end - begin) * sizeof *column);
+    }
+}
+
+static bool copy_go_on(void *copying, const ParticleColumns *to, bool waits, bool *whole)
+{
+    ComputeCopy *copy = copying;
+    *whole = false;
+    if (!copy->arrived) {
+        const void *arrived = waits ? mailbox_wait(&copy->mailbox) : mailbox_look(&copy->mailbox);
+        if (!arrived)
+            return copy->mailbox.fence != NULL;
+        copy->arrived = true;
+    }
+    const size_t left = copy->count - copy->done, least = copy->count / COPY_PARTS + 1;
+    const size_t part = least > COPY_PART ? least : COPY_PART;
+    const size_t end = waits || left < part ? copy->count : copy->done + part;
+    copy_read(copy, end, to);
+    copy->done = end;
+    *whole = end == copy->count;
+    return true;
+}
+
+const BackendCopy compute_copies = {copy_begin, copy_go_on, copy_free};
 
 void compute_forces_forget(Compute *c)
 {

@@ -223,6 +223,7 @@ const Backend backend_compute = {
     .energy = compute_energy,
     .energy_ahead = compute_energy_ahead,
     .save = compute_save,
+    .copies = &compute_copies,
     .load = compute_load,
     .info = compute_info,
 };

@@ -383,6 +383,7 @@ bool compute_gauged(void *state, WorldGauge *gauge, bool waits);
 void compute_energy(void *state, bool turning, EnergySums *sums);
 void compute_energy_ahead(void *state);
 bool compute_save(void *state, const ParticleColumns *to);
+extern const struct BackendCopy compute_copies;
 bool compute_load(void *state, const ParticleColumns *from, size_t count, size_t guarded);
 void compute_info(const void *state, WorldInfo *info);
 

@@ -258,7 +258,7 @@ static bool download(const Fragment *f, ParticleColumns *columns)
     const bool done = texels && sorted && id && columns_create(columns, &rows, f->count, NULL);
     for (int t = POSITION; done && t < TEXTURES; t++) {
         texels_by_id(f, t, id, texels, sorted);
-        packing_unpack(&packing, t, method, sorted, f->count, columns);
+        packing_unpack(&packing, t, method, sorted, 0, f->count, columns);
     }
     if (!done)
         columns_destroy(columns);
