@@ -35,7 +35,8 @@
 #define OLD_OWN_BUFFER 9
 #define SCRATCH_BUFFER 10
 
-#define LISTS_BUFFER 11 /* if the driver has enough bindings */
+#define LISTS_BUFFER      11 /* if the driver has enough bindings */
+#define MORE_LISTS_BUFFER 16 /* and the next: where lists take several blocks */
 
 #define BOUNDARY_POSITIONS_BUFFER  12
 #define BOUNDARY_VELOCITIES_BUFFER 13

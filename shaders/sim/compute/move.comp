@@ -19,6 +19,6 @@ void main()
     velocity[i] = old_velocity[o];
     name[i] = old_name[o];
 #ifdef LISTS
-    list[i] = LIST_NONE;
+    list_put(i, list_own(i), LIST_NONE);
 #endif
 }

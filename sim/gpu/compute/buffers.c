@@ -487,7 +487,8 @@ bool compute_load(void *state, const ParticleColumns *from, size_t count, size_t
 
 /* Neighbour lists, made by the first pass of a step for later passes: shaders/sim/lists.glsl. Without a
    free binding or memory, and with periodic sides, each pass walks the cells. Lists take at most a quarter
-   of the memory: the views need some, and a driver may promise more memory than there is. */
+   of the memory: the views need some, and a driver may promise more memory than there is. Where a driver's
+   blocks are too small, lists take up to four. */
 
 /* List size: half more than the lattice has within the support, plus 8, since moving fluid is locally
    denser. */
@@ -498,39 +499,64 @@ static size_t list_most(const Constants *s)
     return 8 * (size_t)ceil((1.5 * lattice + 8) / 8);
 }
 
-/* Rounded up to blocks of 32 particles. */
-static size_t stride_of(const Compute *c)
+/* Particles of each block, a multiple of 32. */
+static size_t share_of(const Compute *c, int blocks)
 {
-    return (c->capacity + 31) / 32 * 32;
+    return (c->capacity / (size_t)blocks + 32) / 32 * 32;
 }
 
 /* True if the driver has enough bindings and blocks: solids and a method's columns need some beside the
    usual eight. */
-static bool bound(const Compute *c, const GlLimits *have)
+static bool bound(const Compute *c, const GlLimits *have, int blocks)
 {
     const int columns = (c->own.count > 0) + (compute_scratch_of(c->constants).total > 0);
-    return !c->constants->periodic.any && have->bindings > LISTS_BUFFER &&
-           have->compute_blocks >= 8 + columns + (c->constants->solid_count > 0 ? 5 : 0);
+    const int last = blocks > 1 ? MORE_LISTS_BUFFER + blocks - 2 : LISTS_BUFFER;
+    return !c->constants->periodic.any && have->bindings > last &&
+           have->compute_blocks >= 7 + blocks + columns + (c->constants->solid_count > 0 ? 5 : 0);
+}
+
+/* `bytes`: of a particle. */
+static bool make_lists(Compute *c, const GlLimits *have, size_t bytes)
+{
+    int blocks = 1;
+    while (blocks < COMPUTE_LISTS && (int64_t)(bytes * share_of(c, blocks)) > have->block_bytes)
+        blocks++;
+    const size_t block = bytes * share_of(c, blocks);
+    if (!bound(c, have, blocks) || (int64_t)block > have->block_bytes ||
+        (double)block * blocks > 0.25 * gl_memory())
+        return false;
+    for (int k = 0; k < blocks; k++)
+        c->lists[k] = compute_buffer(c, "lists of neighbours", block);
+    c->list_blocks = blocks;
+    c->list_share = share_of(c, blocks);
+    return !c->full;
 }
 
 void compute_lists_create(Compute *c)
 {
     const GlLimits have = gl_limits();
-    const size_t most = list_most(c->constants), bytes = 4 * (most + 1) * stride_of(c);
-    if (c->full || !bound(c, &have))
+    const size_t most = list_most(c->constants), bytes = 4 * (most + 1);
+    if (c->full || !bound(c, &have, 1))
         return;
-    if ((int64_t)bytes <= have.block_bytes && (double)bytes <= 0.25 * gl_memory())
-        c->lists = compute_buffer(c, "lists of neighbours", bytes);
     c->list_most = most;
+    c->unlisted = 0;
+    if (!make_lists(c, &have, bytes)) {
+        glDeleteBuffers(COMPUTE_LISTS, c->lists);
+        memset(c->lists, 0, sizeof c->lists);
+        c->unlisted = bytes * share_of(c, 1);
+    }
     c->full = false;
-    c->unlisted = c->lists ? 0 : bytes;
 }
 
 void compute_list_defines(const Compute *c, char out[COMPUTE_DEFINES_MAX])
 {
     const size_t used = strlen(out);
-    if (c->lists)
-        snprintf(out + used, COMPUTE_DEFINES_MAX - used,
-                 "#define LISTS 1\n#define LIST_MOST %zuu\n#define LIST_STRIDE %zuu\n#define LIST_RUN %uu\n",
-                 c->list_most, stride_of(c), gl_renderer_is_software() ? 1U : 4U);
+    if (!c->lists[0])
+        return;
+    snprintf(out + used, COMPUTE_DEFINES_MAX - used,
+             "#define LISTS 1\n#define LIST_MOST %zuu\n#define LIST_STRIDE %zuu\n#define LIST_RUN %uu\n",
+             c->list_most, c->list_share, gl_renderer_is_software() ? 1U : 4U);
+    if (c->list_blocks > 1)
+        snprintf(out + strlen(out), COMPUTE_DEFINES_MAX - strlen(out),
+                 "#define LIST_BLOCKS %d\n#define LIST_SHARE %zuu\n", c->list_blocks, c->list_share);
 }

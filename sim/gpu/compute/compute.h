@@ -16,7 +16,8 @@ enum {
     COMPUTE_GAUGE_GROUPS = 64,
     COMPUTE_EXCESS_GROUPS_MOST = 512,
     COMPUTE_ALONG = 65535, /* work groups per row */
-    COMPUTE_NAMED = 19,
+    COMPUTE_NAMED = 22,
+    COMPUTE_LISTS = 4,                        /* blocks of neighbour lists */
     COMPUTE_BUFFERS = METHOD_BUFFERS_MAX + 4, /* of the method, and a buffer per term */
     COMPUTE_DEFINES_MAX = 4096
 };
@@ -161,9 +162,10 @@ typedef struct Compute {
     ComputeOwn own;
     unsigned scratch; /* float, columns in sequence; 0: the method's shaders have none */
     int scratch_total;
-    unsigned lists; /* uint: shaders/sim/lists.glsl; 0: none */
-    size_t list_most;
-    size_t unlisted; /* bytes of lists that exceed the memory */
+    unsigned lists[COMPUTE_LISTS]; /* uint: shaders/sim/lists.glsl; 0: none */
+    int list_blocks;
+    size_t list_most, list_share; /* neighbours of a particle; particles of a block */
+    size_t unlisted;              /* bytes of lists that exceed the memory */
     CellFold fold;
     unsigned cell, rank, order, start;    /* start: places of `fold` + 1 */
     unsigned totals[COMPUTE_SCAN_LEVELS]; /* of blocks of the level before */

@@ -34,7 +34,8 @@ void compute_grid(void *state)
     BIND([ORDERS_BUFFER] = order, [OLD_POSITIONS_BUFFER] = c->now.position,
          [OLD_VELOCITIES_BUFFER] = c->now.velocity, [OLD_NAMES_BUFFER] = c->now.name,
          [POSITIONS_BUFFER] = c->spare.position, [VELOCITIES_BUFFER] = c->spare.velocity,
-         [NAMES_BUFFER] = c->spare.name, [LISTS_BUFFER] = c->lists);
+         [NAMES_BUFFER] = c->spare.name, [LISTS_BUFFER] = c->lists[0], [MORE_LISTS_BUFFER] = c->lists[1],
+         c->lists[2], c->lists[3]);
     compute_run(c, COMPUTE_MOVE, c->count);
     compute_own_move(c, order);
     if (c->decided == DECIDED_RENEWAL) /* possibly nothing has moved */
