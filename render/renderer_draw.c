@@ -179,7 +179,6 @@ static void end_picture(Renderer *renderer)
 
 static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer, ViewCounts *counts)
 {
-    neighbourhood_forget(&renderer->derived.neighbourhood);
     const ParticleBuffers with = derived_of(renderer, state, timer);
     const Subject subject = subject_of(renderer);
     Picture *picture = &renderer->picture;
@@ -192,6 +191,7 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
         view_prepare(renderer->view, &with, &picture->frame);
     effects_draw(picture);
     end_picture(renderer);
+    neighbourhood_forget(&renderer->derived.neighbourhood);
     renderer->showed_stale = renderer->stale;
     renderer->stale = false;
 }
@@ -212,6 +212,7 @@ void renderer_add_state(Renderer *renderer, const ParticleBuffers *state, GlTime
             derive(renderer, &wants, &with);
         }
     overlays_add_state(&renderer->overlays, &with, &subject, timer);
+    neighbourhood_forget(&renderer->derived.neighbourhood);
 }
 
 void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer)

@@ -345,6 +345,7 @@ typedef struct DerivedJob {
     const DerivedSpace *space;
     const ParticleBuffers *particles;
     unsigned packed[2]; /* content of each pack, PARTICLE_*; 0: empty */
+    bool sorted;        /* the grid is of `particles` */
 } DerivedJob;
 
 static bool reserve_pack(Derived *derived, DerivedPack *pack, size_t count)
@@ -365,7 +366,10 @@ static bool prepare_near(DerivedJob *making, const DerivedFormula *recipe)
     Derived *derived = making->derived;
     DerivedPack *pack = pack_of(derived, recipe);
     unsigned *packed = pack ? &making->packed[pack - derived->pack] : NULL;
+    if (!making->sorted)
+        neighbourhood_forget(&derived->neighbourhood);
     neighbourhood_build(&derived->neighbourhood, making->particles);
+    making->sorted = true;
     if (!pack)
         return true;
     if (*packed != reads(recipe)) {
@@ -444,7 +448,7 @@ static ParticleAttribute make_scalar(DerivedJob *making, Scalar scalar)
 ParticleAttribute derived_foam(Derived *derived, const DerivedSpace *space, const ParticleBuffers *particles,
                                double slowest, unsigned old_foam)
 {
-    DerivedJob making = {derived, space, particles, {0}};
+    DerivedJob making = {derived, space, particles, {0}, true}; /* of the picture's state */
     const unsigned program = derived->foam_program;
     if (!due(true, program, &foam_recipe, particles) ||
         !reserve(derived, &derived->foam_buffer, &derived->foam_capacity, particles->count, 8, "foam"))
@@ -461,9 +465,8 @@ ParticleAttribute derived_foam(Derived *derived, const DerivedSpace *space, cons
 void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpace *space,
                   ParticleBuffers *particles)
 {
-    DerivedJob making = {derived, space, particles, {0}};
+    DerivedJob making = {derived, space, particles, {0}, false};
     const size_t count = particles->count;
-    neighbourhood_forget(&derived->neighbourhood);
     for (int s = 0; s < SCALAR_COUNT; s++) {
         const unsigned program = derived->scalar_program[s];
         if (particles->scalar[s].buffer ||

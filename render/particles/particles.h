@@ -251,7 +251,7 @@ void neighbourhood_destroy(Neighbourhood *neighbourhood);
    least the support radius. */
 void neighbourhood_build(Neighbourhood *neighbourhood, const ParticleBuffers *particles);
 
-/* For the begin of a picture: positions in the same buffer may be new. */
+/* For the end of a picture: positions in the same buffer may be new. */
 static inline void neighbourhood_forget(Neighbourhood *neighbourhood)
 {
     neighbourhood->of.buffer = 0;

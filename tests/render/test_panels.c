@@ -2,8 +2,11 @@
 #include "tests/render/fixture.h"
 
 #include "render/renderer.h"
+#include "render/views/splat/splat.h"
 #include "sim/base/base.h"
+#include "sim/gpu/gl.h"
 
+#include <epoxy/gl.h>
 #include <math.h>
 
 enum { WIDTH = 401, HEIGHT = 301 };
@@ -155,6 +158,79 @@ static void a_state_is_derived_once(void **state)
     assert_int_equal(renderer_derived_bytes(renderer), 0);
     renderer_draw(renderer, states[0], NULL);
     renderer_destroy(renderer);
+    stand_destroy(&stand);
+}
+
+static uint64_t dispatches_of(Panels *panels, const ParticleBuffers *const states[])
+{
+    const GlCalls before = gl_calls();
+    panels_draw(panels, states, NULL);
+    return gl_calls_since(&before).dispatches;
+}
+
+/* Colours and ellipsoids look at neighbours: a panel among two sorts as often as one alone. */
+static void a_panel_sorts_a_state_once(void **state)
+{
+    (void)state;
+    static uint8_t rgb[3 * WIDTH * HEIGHT];
+    Error error = {0};
+    Stand stand = stand_create();
+    const WorldDef world = bare_world();
+    ViewDef def = view_def_default();
+    text_set(def.kind, "splat");
+    splat_def(&def)->shape = SPLAT_ELLIPSOID;
+    def.color_by = SCALAR_NEIGHBOURS;
+    def.range_auto = false;
+    def.range[1] = 40;
+    const Subject subjects[] = {{&def, &world}, {&def, &world}};
+    const ParticleBuffers *states[] = {&stand.states[0], &stand.states[1]};
+    uint64_t dispatches[2];
+    for (int count = 1; count <= 2; count++) {
+        Panels *panels = panels_create(subjects, count, WIDTH, HEIGHT, &error);
+        assert_non_null(panels);
+        panels_draw(panels, states, NULL);
+        dispatches[count - 1] = dispatches_of(panels, states);
+        assert_true(panels_read(panels, rgb, &error));
+        for (int i = 0; i < count; i++)
+            assert_panel(rgb, WIDTH, &panels_rects(panels)[i], &def, &world, states[i], 0);
+        panels_destroy(panels);
+    }
+    assert_int_equal(dispatches[1], 2 * dispatches[0]);
+    stand_destroy(&stand);
+}
+
+/* As a solver writes the next state into the buffers of the last. */
+static void each_picture_sorts_anew(void **state)
+{
+    (void)state;
+    static uint8_t rgb[3 * WIDTH * HEIGHT];
+    Error error = {0};
+    Stand stand = stand_create();
+    const WorldDef world = bare_world();
+    ViewDef def = view_def_default();
+    text_set(def.kind, "splat");
+    splat_def(&def)->shape = SPLAT_ELLIPSOID;
+    ParticleBuffers moving = stand.states[0];
+    const size_t count = moving.count;
+    float(*places)[4] = calloc(count, sizeof *places);
+    assert_non_null(places);
+    glGetNamedBufferSubData(moving.position.buffer, (GLintptr)moving.position.offset,
+                            (GLsizeiptr)(count * sizeof *places), places);
+    glCreateBuffers(1, &moving.position.buffer);
+    glNamedBufferData(moving.position.buffer, (GLsizeiptr)(count * sizeof *places), places, GL_DYNAMIC_DRAW);
+    moving.position.offset = 0;
+    Renderer *renderer = renderer_create(&def, &world, WIDTH, HEIGHT, &error);
+    assert_non_null(renderer);
+    renderer_draw(renderer, &moving, NULL);
+    for (size_t i = 0; i < count; i++)
+        places[i][1] *= 0.6F;
+    glNamedBufferSubData(moving.position.buffer, 0, (GLsizeiptr)(count * sizeof *places), places);
+    renderer_draw(renderer, &moving, NULL);
+    renderer_read(renderer, rgb);
+    assert_panel(rgb, WIDTH, &(PanelRect){0, 0, WIDTH, HEIGHT}, &def, &world, &moving, 0);
+    renderer_destroy(renderer);
+    glDeleteBuffers(1, &moving.position.buffer);
+    free(places);
     stand_destroy(&stand);
 }
 
@@ -430,6 +506,8 @@ int main(void)
         cmocka_unit_test(a_pick_at_another_resolution),
         cmocka_unit_test_teardown(panels_are_pictures_of_their_own, no_gl_errors),
         cmocka_unit_test_teardown(a_state_is_derived_once, no_gl_errors),
+        cmocka_unit_test_teardown(a_panel_sorts_a_state_once, no_gl_errors),
+        cmocka_unit_test_teardown(each_picture_sorts_anew, no_gl_errors),
         cmocka_unit_test_teardown(a_scalar_has_one_range, no_gl_errors),
         cmocka_unit_test_teardown(cameras_are_the_same, no_gl_errors),
         cmocka_unit_test_teardown(a_title_covers_its_rows_alone, no_gl_errors),
