@@ -18,7 +18,8 @@ SIMD_INLINE f8 weight(f8 r2, f8 inverse_h, const DensityKernel kernel)
 SIMD_INLINE f8 density_of(const PairArgs *args, size_t i, const LaneImages *images,
                           const DensityKernel kernel, const bool solids, f8 *beside)
 {
-    const f8 inverse_h = f8_splat(1 / args->constants->support_radius);
+    const f8 inverse_h = f8_splat(1 / args->constants->support_radius),
+             h2 = f8_splat(args->constants->support_radius * args->constants->support_radius);
     const LaneVector at = place_of(args, i);
     const NeighbourRange near = neighbour_range_of(args, i);
     f8 sum = f8_splat(0);
@@ -29,7 +30,10 @@ SIMD_INLINE f8 density_of(const PairArgs *args, size_t i, const LaneImages *imag
         if (solids)
             *beside += p.w * w;
         for (int m = 1; images && m <= images->count; m++) {
-            w = weight(apart(images->of[m].at, p).r2, inverse_h, kernel);
+            const f8 r2 = apart(images->of[m].at, p).r2;
+            if (i8_bits(r2 < h2) == 0)
+                continue;
+            w = weight(r2, inverse_h, kernel);
             sum += w;
             if (solids)
                 *beside += p.w * w;
@@ -95,6 +99,8 @@ SIMD_INLINE void push_by(const PairArgs *args, const ImageParticle *image, f8 pi
     const Constants *s = args->constants;
     const float least = 1e-9f * s->support_radius; /* changes no bit of a larger r2 */
     const Separation d = apart(image->at, near);
+    if (i8_bits(d.r2 < f8_splat(s->support_radius * s->support_radius)) == 0)
+        return;
     const f8 r = f8_sqrt(d.r2 + f8_splat(least * least)), q = r * f8_splat(1 / s->support_radius);
     const f8 push = push_of(f8_splat(s->pressure_scale), q, r, pi + d.term, smooth);
     sum->x += image->sign.x * push * d.x;

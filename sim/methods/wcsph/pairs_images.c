@@ -10,12 +10,14 @@ SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const NeighbourRange n
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), least2 = f8_splat(least * least);
-    const f8 apart = f8_splat(args->constants->spacing / h);
+    const f8 apart = f8_splat(args->constants->spacing / h), h2 = f8_splat(h * h);
     const f8 ui = image->sign.x * f8_load(args->vx + i), vi = image->sign.y * f8_load(args->vy + i),
              wi = image->sign.z * f8_load(args->vz + i);
     f8 sum = f8_splat(0);
     NEIGHBOURS (near, j) {
         const Separation d = separation(args, image->at, j);
+        if (i8_bits(d.r2 < h2) == 0)
+            continue;
         const f8 f = image_shape(f8_sqrt(greater(d.r2, least2)) * inverse_h, apart, kernel);
         const f8x4 v = motion(args, j);
         const f8 flow = f * ((ui - v.x) * d.x + (vi - v.y) * d.y + (wi - v.z) * d.z);
@@ -37,10 +39,12 @@ SIMD_INLINE void image_push(const PairArgs *args, size_t i, const NeighbourRange
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), least2 = f8_splat(least * least);
-    const f8 apart = f8_splat(args->constants->spacing / h);
+    const f8 apart = f8_splat(args->constants->spacing / h), h2 = f8_splat(h * h);
     const f8 pi = f8_load(args->pressure_term + i);
     NEIGHBOURS (near, j) {
         const Separation d = separation(args, image->at, j);
+        if (i8_bits(d.r2 < h2) == 0)
+            continue;
         const f8 q = f8_sqrt(greater(d.r2, least2)) * inverse_h, f = image_shape(q, apart, kernel);
         const f8 push = f * (pi + image_term(rise, d.term, d));
         sum->fx += push * d.x, sum->fy += push * d.y, sum->fz += push * d.z;
@@ -65,12 +69,15 @@ SIMD_INLINE void image_rub(const PairArgs *args, size_t i, const NeighbourRange 
     const f8 inverse_h = f8_splat(1 / s->support_radius),
              least = f8_splat(radial ? 1e-6f : 0.5f * s->spacing / s->support_radius);
     const f8 most = f8_splat(1 / (THINNEST * s->rest_number_density));
+    const f8 h2 = f8_splat(s->support_radius * s->support_radius);
     const f8 mi = args->viscosity ? f8_load(args->viscosity + i) : f8_splat(s->viscosity[0]);
     const f8 volume = lesser(f8_load(args->volume + i), most), scale = f8_splat(w->radial_friction);
     const f8 ui = image->sign.x * f8_load(args->vx + i), vi = image->sign.y * f8_load(args->vy + i),
              wi = image->sign.z * f8_load(args->vz + i);
     NEIGHBOURS (near, j) {
         const Separation d = separation(args, image->at, j);
+        if (i8_bits(d.r2 < h2) == 0)
+            continue;
         const f8x4 v = motion(args, j);
         const f8 rub = shape(greater(f8_sqrt(d.r2) * inverse_h, least), kernel) * volume * lesser(v.w, most) *
                        pair_viscosities(args, mi, j);
