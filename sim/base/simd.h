@@ -98,12 +98,20 @@ SIMD_INLINE f8 f8_copysign(f8 a, f8 b)
 /* Minimum and maximum; b if a or b is NaN. */
 SIMD_INLINE f8 lesser(f8 a, f8 b)
 {
+#if defined(__AVX__)
+    return (f8)_mm256_min_ps((__m256)a, (__m256)b);
+#else
     return f8_select(a < b, a, b);
+#endif
 }
 
 SIMD_INLINE f8 greater(f8 a, f8 b)
 {
+#if defined(__AVX__)
+    return (f8)_mm256_max_ps((__m256)a, (__m256)b);
+#else
     return f8_select(a > b, a, b);
+#endif
 }
 
 SIMD_INLINE f8 f8_sqrt(f8 a)
@@ -135,9 +143,13 @@ SIMD_INLINE f8 f8_positive(f8 a)
 #endif
 }
 
+/* Entries j[0 .. 7] / 2 of a column: twice the index is what a load can scale, for columns of 4 and of 16
+   bytes alike. */
 SIMD_INLINE f8 f8_gather(const float *p, const uint32_t *j)
 {
-    return (f8){p[j[0]], p[j[1]], p[j[2]], p[j[3]], p[j[4]], p[j[5]], p[j[6]], p[j[7]]};
+#define ONE(k) (*(const float *)((const char *)p + 2 * (size_t)j[k]))
+    return (f8){ONE(0), ONE(1), ONE(2), ONE(3), ONE(4), ONE(5), ONE(6), ONE(7)};
+#undef ONE
 }
 
 /* Four columns of eight entries. */
@@ -145,13 +157,14 @@ typedef struct f8x4 {
     f8 x, y, z, w;
 } f8x4;
 
-/* Entries j[0 .. 7] of packed columns: loads of 16 bytes and a transposition, at half the cost of four
+/* Entries j[0 .. 7] / 2 of packed columns: loads of 16 bytes and a transposition, at half the cost of four
    gathers. */
 SIMD_INLINE f8x4 f8_load4(const float (*p)[4], const uint32_t *j)
 {
+#define ONE(k) ((const float *)((const char *)p + 8 * (size_t)j[k]))
 #if defined(__AVX__)
 #define PAIR(k)                                                                                              \
-    _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(p[j[k]])), _mm_load_ps(p[j[(k) + 4]]), 1)
+    _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(ONE(k))), _mm_load_ps(ONE((k) + 4)), 1)
     const __m256 a = PAIR(0), b = PAIR(1), c = PAIR(2), d = PAIR(3);
 #undef PAIR
     const __m256 ab = _mm256_unpacklo_ps(a, b), cd = _mm256_unpacklo_ps(c, d);
@@ -164,8 +177,8 @@ SIMD_INLINE f8x4 f8_load4(const float (*p)[4], const uint32_t *j)
         __m128 half[2];
     } x, y, z, w;
     for (int k = 0; k < 2; k++, j += 4) {
-        const __m128 a = _mm_load_ps(p[j[0]]), b = _mm_load_ps(p[j[1]]), c = _mm_load_ps(p[j[2]]),
-                     d = _mm_load_ps(p[j[3]]);
+        const __m128 a = _mm_load_ps(ONE(0)), b = _mm_load_ps(ONE(1)), c = _mm_load_ps(ONE(2)),
+                     d = _mm_load_ps(ONE(3));
         const __m128 ab = _mm_unpacklo_ps(a, b), cd = _mm_unpacklo_ps(c, d);
         const __m128 AB = _mm_unpackhi_ps(a, b), CD = _mm_unpackhi_ps(c, d);
         x.half[k] = _mm_movelh_ps(ab, cd), y.half[k] = _mm_movehl_ps(cd, ab);
@@ -173,13 +186,14 @@ SIMD_INLINE f8x4 f8_load4(const float (*p)[4], const uint32_t *j)
     }
     return (f8x4){x.wide, y.wide, z.wide, w.wide};
 #else
-    const float *const a = p[j[0]], *const b = p[j[1]], *const c = p[j[2]], *const d = p[j[3]],
-                       *const e = p[j[4]], *const f = p[j[5]], *const g = p[j[6]], *const h = p[j[7]];
+    const float *const a = ONE(0), *const b = ONE(1), *const c = ONE(2), *const d = ONE(3),
+                       *const e = ONE(4), *const f = ONE(5), *const g = ONE(6), *const h = ONE(7);
     return (f8x4){{a[0], b[0], c[0], d[0], e[0], f[0], g[0], h[0]},
                   {a[1], b[1], c[1], d[1], e[1], f[1], g[1], h[1]},
                   {a[2], b[2], c[2], d[2], e[2], f[2], g[2], h[2]},
                   {a[3], b[3], c[3], d[3], e[3], f[3], g[3], h[3]}};
 #endif
+#undef ONE
 }
 
 /* A bit per lane. */

@@ -56,34 +56,32 @@ SIMD_INLINE void block_add(const PairArgs *args, const BlockBounds *around_box, 
         store_packed(block->x + count, (i8)x, seen);
         store_packed(block->y + count, (i8)y, seen);
         store_packed(block->z + count, (i8)z, seen);
-        store_packed(block->j + count, lane_index + i8_splat((int32_t)j), seen);
+        store_packed(block->j + count, lane_index + lane_index + i8_splat((int32_t)list_entry(j)), seen);
         count += seen.count;
     }
     block->count = count;
 }
 
-/* Appends the neighbours of particle i among the candidates. */
-SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const float *y, const float *z,
-                       const int32_t *j, int count, ListWriter *out)
+/* Appends the neighbours at `at` among the candidates. */
+SIMD_INLINE void offer(const PairArgs *args, const float place[3], const CandidateBlock *block, ListWriter *out)
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
     const f8 h2 = f8_splat(h * h), least2 = f8_splat(least * least);
-    const LaneVector at = {f8_splat(args->x[i]), f8_splat(args->y[i]), f8_splat(args->z[i])};
-    const i8 self = i8_splat((int32_t)i);
-    i8 coincident = i8_splat(0); /* counted down */
+    const LaneVector at = {f8_splat(place[0]), f8_splat(place[1]), f8_splat(place[2])};
+    const size_t count = (size_t)block->count;
+    f8 nearest2 = h2;
     int32_t *to = out->at;
-    for (int k = 0; k < count; k += LANES) {
-        const f8 dx = at.x - f8_load(x + k), dy = at.y - f8_load(y + k), dz = at.z - f8_load(z + k);
-        f8 r2 = dx * dx + dy * dy + dz * dz;
-        if (count - k < LANES)
-            r2 = f8_select(lane_index < i8_splat(count - k), r2, f8_splat(INFINITY));
-        const PackedLanes seen = packed_lanes((r2 < h2) & (i8_load(j + k) != self));
-        store_packed(to, i8_load(j + k), seen);
+    for (size_t k = 0; k < count; k += LANES) {
+        const f8 dx = at.x - f8_load(block->x + k), dy = at.y - f8_load(block->y + k),
+                 dz = at.z - f8_load(block->z + k);
+        const f8 r2 = dx * dx + dy * dy + dz * dz;
+        const PackedLanes seen = packed_lanes(r2 < h2);
+        store_packed(to, i8_load(block->j + k), seen);
         to += seen.count;
-        coincident += r2 < least2;
+        nearest2 = lesser(r2, nearest2);
     }
     out->at = to;
-    out->coincident -= i8_sum(coincident);
+    out->coincident |= i8_bits(nearest2 < least2) != 0;
 }
 
 /* Transposes LANES by LANES entries. */

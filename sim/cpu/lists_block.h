@@ -7,11 +7,11 @@
 
 enum { BLOCK_MOST = 2048 /* 32 kB: the fluid around a cell at the widest support */ };
 
-/* Candidates: positions and indices. */
+/* Candidates: positions and entries of lists. Past the last stand LANES positions that nothing is near. */
 typedef struct CandidateBlock {
-    int count;
-    float x[BLOCK_MOST + LANES], y[BLOCK_MOST + LANES], z[BLOCK_MOST + LANES];
+    _Alignas(32) float x[BLOCK_MOST + LANES], y[BLOCK_MOST + LANES], z[BLOCK_MOST + LANES];
     int32_t j[BLOCK_MOST + LANES];
+    int count, own; /* `own`: the first of the particles whose lists are made */
 } CandidateBlock;
 
 /* The bounding box of some particles: centre and half size, m. */
@@ -52,7 +52,7 @@ typedef struct FoundNeighbours {
 /* The list under construction. */
 typedef struct ListWriter {
     int32_t *at;
-    int coincident; /* counts the particle itself */
+    bool coincident;
 } ListWriter;
 
 #endif

@@ -31,32 +31,28 @@ static void block_add(const PairArgs *args, const BlockBounds *around_box, uint3
         block->x[used] = x[k];
         block->y[used] = y[k];
         block->z[used] = z[k];
-        block->j[used] = (int32_t)begin + k;
+        block->j[used] = (int32_t)list_entry(begin + (uint32_t)k);
         used += square[k] < reach2;
     }
     block->count = used;
 }
 
-/* Appends the neighbours of particle i among at most BLOCK_MOST candidates. */
-SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const float *y, const float *z,
-                       const int32_t *j, int count, ListWriter *out)
+/* Appends the neighbours at `at` among the candidates. */
+SIMD_INLINE void offer(const PairArgs *args, const float at[3], const CandidateBlock *block, ListWriter *out)
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
-    const float at[3] = {args->x[i], args->y[i], args->z[i]};
     float square[BLOCK_MOST + LANES];
     int coincident = 0;
-    for (int k = 0; k < count; k++) {
-        // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): block_add wrote `count` of
-        // them
-        const float dx = at[0] - x[k], dy = at[1] - y[k], dz = at[2] - z[k];
+    for (int k = 0; k < block->count; k++) {
+        const float dx = at[0] - block->x[k], dy = at[1] - block->y[k], dz = at[2] - block->z[k];
         square[k] = dx * dx + dy * dy + dz * dz;
         coincident += square[k] < least * least;
     }
-    out->coincident += coincident;
+    out->coincident |= coincident > 0;
     int32_t *to = out->at;
-    for (int k = 0; k < count; k++) {
-        *to = j[k];
-        to += (square[k] < h * h) & (j[k] != (int32_t)i);
+    for (int k = 0; k < block->count; k++) {
+        *to = block->j[k];
+        to += square[k] < h * h;
     }
     out->at = to;
 }

@@ -60,7 +60,7 @@ SIMD_INLINE NeighbourRange neighbour_range_of(const PairArgs *args, size_t i)
 }
 
 /* NEIGHBOURS (near, j) { const Separation d = separation(args, at, j); ... }: for the next neighbour of
-   each lane; j points to the neighbours' indices. */
+   each lane; j points to the neighbours' entries. */
 #define NEIGHBOURS(near, j) for (const uint32_t *j = (near).first; j < (near).end; j += LANES)
 
 /* A neighbour per lane: x_ij = x_i - x_j, m; r^2, far above h^2 past the list's end; p_j V_j^2. */
@@ -153,7 +153,7 @@ static __attribute__((noinline, unused)) Separation separate_to(const PairArgs *
     for (int k = 0; k < LANES; k++)
         if (d.r2[k] < least * least) {
             float direction[3] = {0};
-            direction_of_ids(args->id[i + (size_t)k], args->id[j[k]], args->constants->dimensions, direction);
+            direction_of_ids(args->id[i + (size_t)k], args->id[list_particle(j[k])], args->constants->dimensions, direction);
             d.x[k] = direction[0] * length;
             d.y[k] = direction[1] * length;
             d.z[k] = direction[2] * length;
@@ -260,7 +260,7 @@ SIMD_INLINE SelfLanes themselves(const PairArgs *args, size_t i)
 {
     SelfLanes own;
     for (uint32_t k = 0; k < LANES; k++)
-        own.j[k] = i + k < args->count ? (uint32_t)i + k : args->none;
+        own.j[k] = list_entry(i + k < args->count ? i + k : args->none);
     return own;
 }
 

@@ -2,7 +2,8 @@
 
    A list has the indices of all particles with r < h in grid order, without the particle itself. LANES
    particles in sequence are a group, with interleaved lists: row k has the k-th neighbour of each particle.
-   Entries past a list's end hold the index of the dummy particle, after all particles and copies. The lists
+   An entry is twice an index (f8_gather of sim/base/simd.h). Entries past a list's end are those of the dummy
+   particle, after all particles and copies. The lists
    of a range of particles are in the range's own memory, written and read by the range's thread. */
 #ifndef SIM_CPU_PAIRS_H
 #define SIM_CPU_PAIRS_H
@@ -23,9 +24,20 @@ enum {
 };
 
 typedef struct ListMemory {
-    uint32_t *index;
-    uint32_t capacity; /* indices */
+    uint32_t *index;   /* entries of lists */
+    uint32_t capacity; /* entries */
 } ListMemory;
+
+/* The entry of a particle, and the particle of an entry. */
+static inline uint32_t list_entry(size_t particle)
+{
+    return 2 * (uint32_t)particle;
+}
+
+static inline size_t list_particle(uint32_t entry)
+{
+    return entry / 2;
+}
 
 typedef struct NeighbourLists {
     ListMemory *of_range;
@@ -42,7 +54,7 @@ typedef struct NeighbourLists {
 /* Current size in bytes; the lists can grow. */
 size_t neighbour_lists_bytes(const NeighbourLists *lists);
 
-/* Makes room for `indices` indices in `memory` of a range and keeps the contents. Returns false and sets
+/* Makes room for `indices` entries in `memory` of a range and keeps the contents. Returns false and sets
    `full` if memory is short. */
 bool neighbour_lists_fit(NeighbourLists *lists, ListMemory *memory, size_t indices);
 

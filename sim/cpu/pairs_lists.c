@@ -44,6 +44,12 @@ static void rows_of(const PairArgs *args, uint32_t cell, CellRowRanges *rows)
     }
 }
 
+/* Closes a block for offer(). */
+SIMD_INLINE void block_end(CandidateBlock *block)
+{
+    f8_store(block->x + block->count, f8_splat(INFINITY));
+}
+
 /* The block of particles [begin, end) of a cell. False if the crowd around overflows the block. */
 static bool block_make(const PairArgs *args, const CellRowRanges *rows, size_t begin, size_t end,
                        CandidateBlock *block)
@@ -52,29 +58,47 @@ static bool block_make(const PairArgs *args, const CellRowRanges *rows, size_t b
     block_bounds(args, begin, end, &box);
     block->count = 0;
     for (int row = 0; row < rows->count; row++) {
-        if (block->count + (int)(rows->end[row] - rows->begin[row]) > BLOCK_MOST)
+        uint32_t from = rows->begin[row];
+        if (block->count + (int)(rows->end[row] - from) > BLOCK_MOST)
             return false;
-        block_add(args, &box, rows->begin[row], rows->end[row], block);
+        if (from <= begin && begin < rows->end[row]) {
+            block_add(args, &box, from, (uint32_t)begin, block);
+            block->own = block->count;
+            from = (uint32_t)begin;
+        }
+        block_add(args, &box, from, rows->end[row], block);
     }
+    block_end(block);
     return true;
 }
 
-static void list_block(const PairArgs *args, size_t i, const CandidateBlock *block, ListWriter *out)
+/* Lists the particle at entry `own` of a block, which is away meanwhile. */
+static void list_block(const PairArgs *args, size_t own, CandidateBlock *block, ListWriter *out)
 {
-    offer(args, i, block->x, block->y, block->z, block->j, block->count, out);
+    const float at[3] = {block->x[own], block->y[own], block->z[own]};
+    block->x[own] = INFINITY;
+    offer(args, at, block, out);
+    block->x[own] = at[0];
 }
 
-/* For a crowd too large for a block. */
+/* For a crowd too large for a block: the candidates by blocks. */
 static void list_rows(const PairArgs *args, size_t i, const CellRowRanges *rows, ListWriter *out)
 {
-    int32_t index[BLOCK_MOST + LANES];
+    CandidateBlock block;
+    const float at[3] = {args->x[i], args->y[i], args->z[i]};
     for (int row = 0; row < rows->count; row++)
-        for (uint32_t j = rows->begin[row]; j < rows->end[row]; j += BLOCK_MOST) {
+        for (uint32_t j = rows->begin[row]; j < rows->end[row]; j += (uint32_t)block.count) {
             const uint32_t left = rows->end[row] - j;
-            const int count = (int)(left < BLOCK_MOST ? left : BLOCK_MOST);
-            for (int k = 0; k < count; k++)
-                index[k] = (int32_t)j + k;
-            offer(args, i, args->x + j, args->y + j, args->z + j, index, count, out);
+            block.count = (int)(left < BLOCK_MOST ? left : BLOCK_MOST);
+            for (int k = 0; k < block.count; k++) {
+                const uint32_t from = j + (uint32_t)k;
+                block.x[k] = from == i ? INFINITY : args->x[from];
+                block.y[k] = args->y[from];
+                block.z[k] = args->z[from];
+                block.j[k] = (int32_t)list_entry(from);
+            }
+            block_end(&block);
+            offer(args, at, &block, out);
         }
 }
 
@@ -87,26 +111,27 @@ static size_t most_of(const CellRowRanges *rows)
     return most;
 }
 
-/* Lists particle i after the group's lists so far. The list stays empty if memory is short. */
-static void list_one(const PairArgs *args, size_t i, const CellRowRanges *rows, const CandidateBlock *block,
+/* Lists particle i, entry `own` of a block, after the group's lists so far. The list stays empty if memory is
+   short. */
+static void list_one(const PairArgs *args, size_t i, const CellRowRanges *rows, CandidateBlock *block, size_t own,
                      FoundNeighbours *found)
 {
     NeighbourLists *lists = args->lists;
     ListMemory *memory = &lists->found[i / LISTS_GRAIN];
     const size_t lane = i % LANES, most = (block ? (size_t)block->count : most_of(rows)) + 2 * LANES;
-    if (!neighbour_lists_fit(lists, memory, found->used + most))
+    if (found->used + most > memory->capacity && !neighbour_lists_fit(lists, memory, found->used + most))
         return;
     int32_t *const first = (int32_t *)memory->index + found->used;
     ListWriter out = {.at = first};
     if (block)
-        list_block(args, i, block, &out);
+        list_block(args, own, block, &out);
     else
         list_rows(args, i, rows, &out);
-    i8_store(out.at, i8_splat((int32_t)args->none));
+    i8_store(out.at, i8_splat((int32_t)list_entry(args->none)));
     const uint32_t count = (uint32_t)(out.at - first);
     found->first[lane] = found->used;
     found->count[lane] = count;
-    found->coincident |= out.coincident > 1;
+    found->coincident |= out.coincident;
     found->used += (count + LANES - 1) / LANES * LANES;
 }
 
@@ -123,7 +148,7 @@ static void list_group(const PairArgs *args, size_t i, const FoundNeighbours *fo
     lists->rows[i / LANES] = 0;
     if (rows == 0 || !neighbour_lists_fit(lists, memory, (size_t)*used + capacity))
         return;
-    interleave(lists->found[i / LISTS_GRAIN].index, found, rows, args->none, memory->index + *used);
+    interleave(lists->found[i / LISTS_GRAIN].index, found, rows, list_entry(args->none), memory->index + *used);
     lists->rows[i / LANES] = rows | (found->coincident ? LISTS_COINCIDENT : 0);
     *used += rows * LANES;
 }
@@ -151,7 +176,7 @@ static void list_cell(const PairArgs *args, size_t begin, size_t end, bool last,
     const bool fits = block_make(args, &rows, begin, end, &block);
     for (size_t i = begin; i < end; i++) {
         if (!aside && args->fluid[i] < FLUIDS_MAX)
-            list_one(args, i, &rows, fits ? &block : NULL, &making->found);
+            list_one(args, i, &rows, fits ? &block : NULL, (size_t)block.own + i - begin, &making->found);
         if ((last && i + 1 == end) || (i + 1) % LANES == 0) {
             list_group(args, i, &making->found, &making->used);
             making->found = (FoundNeighbours){.used = 0};

@@ -52,7 +52,7 @@ SIMD_INLINE uint32_t list_image(const PairArgs *args, size_t i, const ImageParti
     const NeighbourRange near = neighbour_range_of(args, i);
     uint32_t count[LANES] = {0}, most = 0;
     for (size_t row = 0; row < rows; row++)
-        i8_store((int32_t *)to + row * LANES, i8_splat((int32_t)args->none));
+        i8_store((int32_t *)to + row * LANES, i8_splat((int32_t)list_entry(args->none)));
     see(args, image, own.j, to, count);
     NEIGHBOURS (near, j)
         see(args, image, j, to, count);

@@ -82,9 +82,9 @@ static bool check_list(const Cpu *cpu, size_t i, const char *name)
     uint32_t k = 0;
     bool twin = false;
     memset(listed, 0, sizeof listed);
-    const size_t none = COUNT + cpu->copies;
+    const uint32_t none = list_entry(COUNT + cpu->copies);
     for (; k < rows && list[k * LANES] < none; k++) {
-        const size_t j = listed_one(cpu, i, list[k * LANES]);
+        const size_t j = listed_one(cpu, i, list_particle(list[k * LANES]));
         assert_true(j != i && !listed[j]);
         listed[j] = 1;
     }

@@ -74,12 +74,12 @@ static size_t join(ParticleId *label, size_t a, size_t b)
 static void join_listed(const Cpu *cpu, ParticleId *label, size_t i, size_t most)
 {
     const NeighbourLists *lists = &cpu->lists;
-    const size_t rows = lists->rows[i / LANES] & ~(uint32_t)LISTS_COINCIDENT, none = cpu->count + cpu->copies;
-    const uint32_t *list = lists->of_range[i / LISTS_GRAIN].index + lists->first[i / LANES] + i % LANES,
+    const size_t rows = lists->rows[i / LANES] & ~(uint32_t)LISTS_COINCIDENT;
+    const uint32_t none = list_entry(cpu->count + cpu->copies), *list = lists->of_range[i / LISTS_GRAIN].index + lists->first[i / LANES] + i % LANES,
                    *end = list + LANES * (rows < most ? rows : most);
     size_t root = root_of(label, i);
     for (; list < end && *list < none; list += LANES) {
-        const size_t j = *list < cpu->count ? *list : cpu->copy_of[*list];
+        const size_t at = list_particle(*list), j = at < cpu->count ? at : cpu->copy_of[at];
         if (__atomic_load_n(&label[j], __ATOMIC_RELAXED) != root && cpu->now.fluid[j] == cpu->now.fluid[i] &&
             cpu_owns(cpu, j))
             root = join(label, root, j);
