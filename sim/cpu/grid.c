@@ -4,6 +4,7 @@
 #include "sim/cpu/cpu.h"
 
 #include "sim/base/base.h"
+#include "sim/cpu/lanes.h"
 #include "slosh/world.h"
 
 #include <stdlib.h>
@@ -29,28 +30,26 @@ static CellMap cell_map(const Constants *constants)
     return map;
 }
 
-/* The cell along axis k, clamped, so that a non-finite position does no harm before the report. Without
-   libm: its floorf is a call on baseline x86-64. */
-static uint32_t cell_along(const CellMap *map, int k, float x)
+/* The cells along axis k, clamped, so that a non-finite position does no harm before the report. */
+static inline i4 cell_along(const CellMap *map, int k, f4 x)
 {
-    const float place = (x - map->origin[k]) * map->inverse[k];
-    const float held = place < map->last[k]    ? (place > map->first[k] ? place : map->first[k])
-                       : place >= map->last[k] ? map->last[k]
-                                               : map->first[k];
-    const int towards_zero = (int)held, whole = towards_zero - ((float)towards_zero > held);
-    return (uint32_t)(whole - (int)map->first[k]) + 1;
+    const f4 first = f4_splat(map->first[k]), last = f4_splat(map->last[k]);
+    const f4 held = f4_lesser(f4_greater((x - f4_splat(map->origin[k])) * f4_splat(map->inverse[k]), first), last);
+    const i4 towards_zero = __builtin_convertvector(held, i4),
+             whole = towards_zero + (__builtin_convertvector(towards_zero, f4) > held);
+    return whole - ((int)map->first[k] - 1);
 }
 
-static uint32_t cell_at(const CellMap *map, float x, float y, float z)
+static inline u4 cell_at(const CellMap *map, f4 x, f4 y, f4 z)
 {
-    const uint32_t ix = cell_along(map, 0, x), iy = cell_along(map, 1, y), iz = cell_along(map, 2, z);
+    const u4 ix = (u4)cell_along(map, 0, x), iy = (u4)cell_along(map, 1, y), iz = (u4)cell_along(map, 2, z);
     return (iz * (uint32_t)map->size[1] + iy) * (uint32_t)map->size[0] + ix;
 }
 
 uint32_t cpu_cell_of(const Constants *constants, const float x[3])
 {
     const CellMap map = cell_map(constants);
-    return cell_at(&map, x[0], x[1], x[2]);
+    return cell_at(&map, f4_splat(x[0]), f4_splat(x[1]), f4_splat(x[2]))[0];
 }
 
 /* Particles in sequence mostly share a cell: an atomic per run, not per particle. */
@@ -76,11 +75,12 @@ static void find_cells(void *state, size_t begin, size_t end)
     Cpu *cpu = state;
     const CellMap map = cell_map(cpu->constants);
     const CpuParticles *p = &cpu->now;
-    for (size_t i = begin; i < end; i++) {
-        const bool aside = cpu->boundary_at && p->x[i] == ASIDE; /* in an extra cell that is never read */
-        cpu->spare_cell[i] =
-            aside ? (uint32_t)cpu->constants->cells.count : cell_at(&map, p->x[i], p->y[i], p->z[i]);
-    }
+    for (size_t i = begin; i < end; i += FOUR)
+        four_put(cpu->spare_cell, i, end,
+                  (f4)cell_at(&map, f4_load(p->x, i), f4_load(p->y, i), f4_load(p->z, i)));
+    for (size_t i = begin; cpu->boundary_at && i < end; i++)
+        if (p->x[i] == ASIDE) /* in an extra cell that is never read */
+            cpu->spare_cell[i] = (uint32_t)cpu->constants->cells.count;
 }
 
 static void place_particles(void *state, size_t begin, size_t end)

@@ -1,4 +1,5 @@
 #include "sim/cpu/cpu.h"
+#include "sim/cpu/lanes.h"
 
 #include <math.h>
 #include <string.h>
@@ -34,13 +35,27 @@ static size_t guard(const DriftJob *drift, const WallsFar *inside, size_t i, flo
     return (size_t)by_solid + (size_t)by_wall;
 }
 
+/* Moves the particles from i on before `end`, at most FOUR, in a box at rest. False, and nothing is moved, if
+   one of them may meet a wall. */
+static inline bool drift_free(const CpuParticles *p, const WallsFar *inside, float dt, size_t i, size_t end)
+{
+    const f4 by = f4_splat(dt);
+    const f4 x = f4_load(p->x, i) + f4_load(p->vx, i) * by, y = f4_load(p->y, i) + f4_load(p->vy, i) * by,
+             z = f4_load(p->z, i) + f4_load(p->vz, i) * by;
+    if (i4_bits(four_near_walls(inside, x, y, z) & four_before(i, end)) != 0)
+        return false;
+    four_put(p->x, i, end, x);
+    four_put(p->y, i, end, y);
+    four_put(p->z, i, end, z);
+    return true;
+}
+
 /* Number of times guards held particles of the run [begin, end). */
-static inline size_t drift_run(const DriftJob *drift, size_t begin, size_t end, CpuForceSums *sums,
-                               const bool wide)
+static size_t drift_each(const DriftJob *drift, const WallsFar *inside, size_t begin, size_t end,
+                         CpuForceSums *sums, const bool wide)
 {
     const Cpu *cpu = drift->cpu;
     const CpuParticles *p = &cpu->now;
-    const WallsFar inside = walls_far(&cpu->constants->walls, 0);
     /* While lists are in use, particles keep the positions of the lists: cpu_leave wraps. */
     const bool solids = drift->step->solids, wraps = cpu->constants->periodic.any && !cpu->lists.ready;
     size_t held = 0;
@@ -50,9 +65,9 @@ static inline size_t drift_run(const DriftJob *drift, size_t begin, size_t end, 
         for (int k = 0; wide && k < 3; k++)
             left[k] = p->own[COLUMNS_LEFT + k][i];
         box_advance(drift->step, x, wide ? left : NULL, v);
-        if (solids || walls_near(&inside, x)) {
+        if (solids || walls_near(inside, x)) {
             const float free[3] = {x[0], x[1], x[2]};
-            held += guard(drift, &inside, i, x, v, sums);
+            held += guard(drift, inside, i, x, v, sums);
             place_put(free, x, wide ? left : NULL);
         }
         if (wraps)
@@ -69,6 +84,23 @@ static inline size_t drift_run(const DriftJob *drift, size_t begin, size_t end, 
     return held;
 }
 
+static size_t drift_run(const DriftJob *drift, size_t begin, size_t end, CpuForceSums *sums)
+{
+    const Constants *s = drift->cpu->constants;
+    const WallsFar inside = walls_far(&s->walls, 0);
+    size_t held = 0;
+    if (s->wide)
+        return drift_each(drift, &inside, begin, end, sums, true);
+    if (!drift->step->still || drift->step->solids || s->periodic.any)
+        return drift_each(drift, &inside, begin, end, sums, false);
+    for (size_t i = begin; i < end; i += FOUR) {
+        const size_t stop = i + FOUR < end ? i + FOUR : end;
+        if (!drift_free(&drift->cpu->now, &inside, drift->step->dt, i, stop))
+            held += drift_each(drift, &inside, i, stop, sums, false);
+    }
+    return held;
+}
+
 static void drift_range(void *context, size_t begin, size_t end)
 {
     const DriftJob *drift = context;
@@ -77,8 +109,7 @@ static void drift_range(void *context, size_t begin, size_t end)
     size_t held = 0;
     sums.any = false;
     for (size_t i = begin, stop; cpu_run(drift->cpu, &i, end, &stop); i = stop)
-        held += drift->cpu->constants->wide ? drift_run(drift, i, stop, sums_forces ? &sums : NULL, true)
-                                            : drift_run(drift, i, stop, sums_forces ? &sums : NULL, false);
+        held += drift_run(drift, i, stop, sums_forces ? &sums : NULL);
     if (sums_forces)
         cpu_force_sums_merge(drift->cpu, &sums);
     if (held)
@@ -176,29 +207,37 @@ static void kick_run(const KickJob *kick, size_t begin, size_t end)
     const float fastest = cpu->constants->method->leaps
                               ? 1e18F
                               : cpu->constants->support_radius / kick->dt; /* with a finite square */
-    float speed2 = 0, acceleration2 = 0, volume = INFINITY;
-    bool bounded = true; /* also false for NaN */
+    const f4 dt = f4_splat(kick->dt), fastest2 = f4_splat(fastest * fastest), far = f4_splat(INFINITY);
+    const f4 none = f4_splat(0);
+    f4 speed2 = none, acceleration2 = none, volume = far;
+    i4 bounded = {-1, -1, -1, -1}; /* also 0 for NaN */
     if (cpu->constants->no_slip && !cpu->constants->implicit.on)
         hold_by_walls(kick, begin, end);
-    for (size_t i = begin; i < end; i++) {
-        const float ax = cpu->now.ax[i] + kick->gravity[0], ay = cpu->now.ay[i] + kick->gravity[1],
-                    az = cpu->now.az[i] + kick->gravity[2];
-        const float vx = p->vx[i] + ax * kick->dt;
-        const float vy = p->vy[i] + ay * kick->dt;
-        const float vz = p->vz[i] + az * kick->dt;
-        const float v2 = vx * vx + vy * vy + vz * vz, a2 = ax * ax + ay * ay + az * az;
-        p->vx[i] = vx;
-        p->vy[i] = vy;
-        p->vz[i] = vz;
-        bounded &= v2 <= fastest * fastest;
-        speed2 = v2 > speed2 ? v2 : speed2;
-        acceleration2 = a2 > acceleration2 ? a2 : acceleration2;
-        volume = cpu->now.volume[i] < volume ? cpu->now.volume[i] : volume;
+    for (size_t i = begin; i < end; i += FOUR) {
+        const i4 there = four_before(i, end);
+        const f4 ax = f4_load(p->ax, i) + f4_splat(kick->gravity[0]),
+                 ay = f4_load(p->ay, i) + f4_splat(kick->gravity[1]),
+                 az = f4_load(p->az, i) + f4_splat(kick->gravity[2]);
+        const f4 vx = f4_load(p->vx, i) + ax * dt, vy = f4_load(p->vy, i) + ay * dt,
+                 vz = f4_load(p->vz, i) + az * dt;
+        const f4 v2 = f4_select(there, vx * vx + vy * vy + vz * vz, none), a2 = ax * ax + ay * ay + az * az;
+        four_put(p->vx, i, end, vx);
+        four_put(p->vy, i, end, vy);
+        four_put(p->vz, i, end, vz);
+        bounded &= v2 <= fastest2;
+        speed2 = f4_greater(v2, speed2);
+        acceleration2 = f4_greater(f4_select(there, a2, none), acceleration2);
+        volume = f4_lesser(f4_select(there, f4_load(p->volume, i), far), volume);
     }
-    atomic_greatest(&cpu->watch.max_speed, sqrtf(speed2));
-    atomic_greatest(&cpu->watch.max_acceleration, sqrtf(acceleration2));
-    atomic_greatest(&cpu->watch.max_density_ratio, 1 / (volume * cpu->constants->rest_number_density));
-    if (!bounded)
+    for (int k = 1; k < FOUR; k++) {
+        speed2[0] = fmaxf(speed2[0], speed2[k]);
+        acceleration2[0] = fmaxf(acceleration2[0], acceleration2[k]);
+        volume[0] = fminf(volume[0], volume[k]);
+    }
+    atomic_greatest(&cpu->watch.max_speed, sqrtf(speed2[0]));
+    atomic_greatest(&cpu->watch.max_acceleration, sqrtf(acceleration2[0]));
+    atomic_greatest(&cpu->watch.max_density_ratio, 1 / (volume[0] * cpu->constants->rest_number_density));
+    if (i4_bits(bounded) != 15)
         __atomic_store_n(&cpu->watch.bounded, false, __ATOMIC_RELAXED);
 }
 

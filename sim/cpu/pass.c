@@ -1,6 +1,7 @@
 #include "sim/cpu/cpu.h"
 
 #include "sim/box/box.h"
+#include "sim/cpu/lanes.h"
 #include "sim/cpu/pairs.h"
 #include "sim/step/method.h"
 
@@ -154,16 +155,27 @@ void cpu_force_end(const CpuRange *range)
     }
 }
 
+/* The first particle from i on before `end` that a wall is near, or `end`. */
+static inline size_t next_near(const WallsFar *far, const CpuParticles *p, size_t i, size_t end)
+{
+    for (; i < end; i += FOUR) {
+        const i4 near = four_near_walls(far, f4_load(p->x, i), f4_load(p->y, i), f4_load(p->z, i));
+        const unsigned bits = i4_bits(near & four_before(i, end));
+        if (bits != 0)
+            return i + (size_t)__builtin_ctz(bits);
+    }
+    return end;
+}
+
 void cpu_cushion(const CpuRange *range)
 {
     const Constants *s = range->cpu->constants;
     const Walls *walls = &s->walls;
     const CpuParticles *p = &range->cpu->now;
     const WallsFar far = walls_far(walls, CUSHION_REACH * walls->spacing);
-    for (size_t i = range->begin; i < range->end; i++) {
+    const size_t end = range->end;
+    for (size_t i = range->begin; (i = next_near(&far, p, i, end)) < end; i++) {
         const float x[3] = {p->x[i], p->y[i], p->z[i]};
-        if (!walls_near(&far, x))
-            continue;
         const float v[3] = {p->vx[i], p->vy[i], p->vz[i]};
         float g[3], a[3] = {0};
         apparent_gravity_at(range->input->apparent, x, g);
@@ -180,11 +192,10 @@ void cpu_wall_lift(const CpuRange *range, float from)
     const Constants *s = range->cpu->constants;
     const CpuParticles *p = &range->cpu->now;
     const WallsFar far = walls_far(&s->walls, s->support_radius);
-    for (size_t i = range->begin; i < range->end; i++) {
+    const size_t end = range->end;
+    for (size_t i = range->begin; (i = next_near(&far, p, i, end)) < end; i++) {
         const float x[3] = {p->x[i], p->y[i], p->z[i]};
         float g[3], lift[3];
-        if (!walls_near(&far, x))
-            continue;
         apparent_gravity_at(range->input->apparent, x, g);
         const float layer =
             s->density[p->fluid[i]] * s->spacing * sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
