@@ -112,8 +112,8 @@ SIMD_INLINE void push_by(const PairArgs *args, const ImageParticle *image, f8 pi
    pressure terms p_i V_i^2 + p_j V_j^2 (the gradient of sum e(n_i), so that energy is conserved), the
    forces are symmetric for every density ratio. Eq. 10 has (p_i + p_j) / 2 instead, which gives half of
    grad p: p_j alone sums up to grad p, and p_i is there for symmetry only. */
-SIMD_INLINE LaneVector force_of(const PairArgs *args, size_t i, const LaneImages *images, const bool viscous,
-                                const bool many, const bool smooth)
+SIMD_INLINE LaneVector force_of(const PairArgs *args, size_t i, const LaneImages *images, const bool coincident,
+                                const bool viscous, const bool many, const bool smooth)
 {
     const Constants *s = args->constants;
     const f8 inverse_h = f8_splat(1 / s->support_radius), pressure_scale = f8_splat(s->pressure_scale);
@@ -129,7 +129,7 @@ SIMD_INLINE LaneVector force_of(const PairArgs *args, size_t i, const LaneImages
     NEIGHBOURS (near, j) {
         const f8x4 p = f8_load4(args->place, j);
         Separation d = apart(at, p);
-        if (__builtin_expect(near.coincident, 0))
+        if (coincident)
             d = separate(args, i, j, d);
 
         const f8 r = f8_sqrt(d.r2), q = r * inverse_h;
@@ -152,6 +152,14 @@ SIMD_INLINE LaneVector force_of(const PairArgs *args, size_t i, const LaneImages
     return sum;
 }
 
+/* For the rare group in which some nearly coincide: a loop of its own, so that the usual one has no test. */
+static __attribute__((noinline)) LaneVector coincident_force(const PairArgs *args, size_t i,
+                                                             const LaneImages *images, bool viscous, bool many,
+                                                             bool smooth)
+{
+    return force_of(args, i, images, true, viscous, many, smooth);
+}
+
 SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, const bool viscous,
                              const bool many, const bool smooth)
 {
@@ -160,8 +168,12 @@ SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, con
     GROUPS (i, begin, end) {
         const SelfLanes own = themselves(args, i);
         const bool mirrored = images_of(args, &far, i, begin, end, &images);
-        LaneVector sum = mirrored ? force_of(args, i, &images, viscous, many, smooth)
-                                  : force_of(args, i, NULL, viscous, many, smooth);
+        LaneVector sum;
+        if (__builtin_expect(neighbour_range_of(args, i).coincident, 0))
+            sum = coincident_force(args, i, mirrored ? &images : NULL, viscous, many, smooth);
+        else
+            sum = mirrored ? force_of(args, i, &images, false, viscous, many, smooth)
+                           : force_of(args, i, NULL, false, viscous, many, smooth);
         for (int m = 1; mirrored && m <= images.count; m++)
             push_by(args, &images.of[m], f8_load(args->pressure_term + i), f8_load4(args->place, own.j), &sum,
                     smooth);

@@ -250,8 +250,9 @@ SIMD_INLINE f8 artificial_of(const float *column, f8 ai, const uint32_t *j)
    separating pairs): V_i V_j (mu_i + mu_j) F v_ji or V_i V_j (mu_i + mu_j) R F (v_ji . x_ij) x_ij, and -V_i
    V_j (a_i + a_j) (v_ij . x_ij) / (r^2 + h^2 / 400) F x_ij, with V at most the value at THINNEST. With
    `shifts` also the sums for sim/methods/wcsph/wcsph_passes.c. */
-SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
-                             const bool viscous, const bool radial, const bool artificial, const bool shifts)
+SIMD_INLINE void wcsph_group(const PairArgs *args, size_t i, size_t begin, size_t end, const ShapeKernel kernel,
+                             const bool viscous, const bool radial, const bool artificial, const bool shifts,
+                             const bool coincident)
 {
     const Constants *s = args->constants;
     const WcsphBlock *w = wcsph_constants(s);
@@ -261,59 +262,75 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
              scale = f8_splat(w->radial_friction);
     const f8 most = f8_splat(1 / (THINNEST * s->rest_number_density));
 
-    GROUPS (i, begin, end) {
-        const LaneVector at = place_of(args, i);
-        const NeighbourRange near = neighbour_range_of(args, i);
-        const f8 ui = f8_load(args->vx + i), vi = f8_load(args->vy + i), wi = f8_load(args->vz + i);
-        const f8 pi = f8_load(args->pressure_term + i), volume = lesser(f8_load(args->volume + i), most);
-        const f8 mi = args->viscosity ? f8_load(args->viscosity + i) : f8_splat(s->viscosity[0]),
-                 ai = args->own[ARTIFICIAL] ? f8_load(args->own[ARTIFICIAL] + i)
-                                            : f8_splat(w->wcsph_fluids[0].artificial_viscosity);
-        f8 fx = f8_splat(0), fy = fx, fz = fx, ex = fx, ey = fx, ez = fx, full = fx, dense = fx;
+    const LaneVector at = place_of(args, i);
+    const NeighbourRange near = neighbour_range_of(args, i);
+    const f8 ui = f8_load(args->vx + i), vi = f8_load(args->vy + i), wi = f8_load(args->vz + i);
+    const f8 pi = f8_load(args->pressure_term + i), volume = lesser(f8_load(args->volume + i), most);
+    const f8 mi = args->viscosity ? f8_load(args->viscosity + i) : f8_splat(s->viscosity[0]),
+             ai = args->own[ARTIFICIAL] ? f8_load(args->own[ARTIFICIAL] + i)
+                                        : f8_splat(w->wcsph_fluids[0].artificial_viscosity);
+    f8 fx = f8_splat(0), fy = fx, fz = fx, ex = fx, ey = fx, ez = fx, full = fx, dense = fx;
 
-        NEIGHBOURS (near, j) {
-            Separation d = separation(args, at, j);
-            if (__builtin_expect(near.coincident, 0))
-                d = separate(args, i, j, d);
+    NEIGHBOURS (near, j) {
+        Separation d = separation(args, at, j);
+        if (coincident)
+            d = separate(args, i, j, d);
 
-            const f8 q = f8_sqrt(d.r2) * inverse_h, f = shape(q, kernel);
-            f8 push = pi + d.term;
-            if (shifts) {
-                ex += f * d.x, ey += f * d.y, ez += f * d.z;
-                full += f * d.r2;
-                dense += height(q, kernel);
-            }
-            if (viscous || artificial) {
-                const f8x4 v = motion(args, j);
-                const f8 ux = v.x - ui, uy = v.y - vi, uz = v.z - wi, both = volume * lesser(v.w, most);
-                if (viscous && radial)
-                    push += both * pair_viscosities(args, mi, j) * scale * (ux * d.x + uy * d.y + uz * d.z);
-                else if (viscous) {
-                    const f8 drag = f * both * pair_viscosities(args, mi, j);
-                    fx += drag * ux;
-                    fy += drag * uy;
-                    fz += drag * uz;
-                }
-                if (artificial)
-                    push += both * artificial_of(args->own[ARTIFICIAL], ai, j) *
-                            (ux * d.x + uy * d.y + uz * d.z) / (d.r2 + soft);
-            }
-            push *= f;
-            fx += push * d.x;
-            fy += push * d.y;
-            fz += push * d.z;
-        }
-        lanes_store(args->fx, i, begin, end, gradient * fx);
-        lanes_store(args->fy, i, begin, end, gradient * fy);
-        lanes_store(args->fz, i, begin, end, gradient * fz);
+        const f8 q = f8_sqrt(d.r2) * inverse_h, f = shape(q, kernel);
+        f8 push = pi + d.term;
         if (shifts) {
-            lanes_store(args->own[UNEVEN], i, begin, end, gradient * ex);
-            lanes_store(args->own[UNEVEN + 1], i, begin, end, gradient * ey);
-            lanes_store(args->own[UNEVEN + 2], i, begin, end, gradient * ez);
-            lanes_store(args->own[FULL], i, begin, end, gradient * full);
-            lanes_store(args->own[DENSE], i, begin, end, f8_splat(s->kernel_scale) * (f8_splat(1) + dense));
+            ex += f * d.x, ey += f * d.y, ez += f * d.z;
+            full += f * d.r2;
+            dense += height(q, kernel);
         }
+        if (viscous || artificial) {
+            const f8x4 v = motion(args, j);
+            const f8 ux = v.x - ui, uy = v.y - vi, uz = v.z - wi, both = volume * lesser(v.w, most);
+            if (viscous && radial)
+                push += both * pair_viscosities(args, mi, j) * scale * (ux * d.x + uy * d.y + uz * d.z);
+            else if (viscous) {
+                const f8 drag = f * both * pair_viscosities(args, mi, j);
+                fx += drag * ux;
+                fy += drag * uy;
+                fz += drag * uz;
+            }
+            if (artificial)
+                push += both * artificial_of(args->own[ARTIFICIAL], ai, j) *
+                        (ux * d.x + uy * d.y + uz * d.z) / (d.r2 + soft);
+        }
+        push *= f;
+        fx += push * d.x;
+        fy += push * d.y;
+        fz += push * d.z;
     }
+    lanes_store(args->fx, i, begin, end, gradient * fx);
+    lanes_store(args->fy, i, begin, end, gradient * fy);
+    lanes_store(args->fz, i, begin, end, gradient * fz);
+    if (shifts) {
+        lanes_store(args->own[UNEVEN], i, begin, end, gradient * ex);
+        lanes_store(args->own[UNEVEN + 1], i, begin, end, gradient * ey);
+        lanes_store(args->own[UNEVEN + 2], i, begin, end, gradient * ez);
+        lanes_store(args->own[FULL], i, begin, end, gradient * full);
+        lanes_store(args->own[DENSE], i, begin, end, f8_splat(s->kernel_scale) * (f8_splat(1) + dense));
+    }
+}
+
+/* For the rare group in which some nearly coincide: a loop of its own, so that the usual one has no test. */
+static __attribute__((noinline)) void coincident_group(const PairArgs *args, size_t i, size_t begin, size_t end,
+                                                       ShapeKernel kernel, bool viscous, bool radial,
+                                                       bool artificial, bool shifts)
+{
+    wcsph_group(args, i, begin, end, kernel, viscous, radial, artificial, shifts, true);
+}
+
+SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
+                             const bool viscous, const bool radial, const bool artificial, const bool shifts)
+{
+    GROUPS (i, begin, end)
+        if (__builtin_expect(neighbour_range_of(args, i).coincident, 0))
+            coincident_group(args, i, begin, end, kernel, viscous, radial, artificial, shifts);
+        else
+            wcsph_group(args, i, begin, end, kernel, viscous, radial, artificial, shifts, false);
 }
 
 SIMD_INLINE void rate_with(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
