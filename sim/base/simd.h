@@ -143,8 +143,8 @@ SIMD_INLINE f8 f8_positive(f8 a)
 #endif
 }
 
-/* Entries j[0 .. 7] / 2 of a column: twice the index is what a load can scale, for columns of 4 and of 16
-   bytes alike. */
+/* Entries j[0 .. 7] / 2 of a column. A load can scale twice the index, for columns of 4 and of 16
+   bytes. */
 SIMD_INLINE f8 f8_gather(const float *p, const uint32_t *j)
 {
 #define ONE(k) (*(const float *)((const char *)p + 2 * (size_t)j[k]))
@@ -186,8 +186,8 @@ SIMD_INLINE f8x4 f8_load4(const float (*p)[4], const uint32_t *j)
     }
     return (f8x4){x.wide, y.wide, z.wide, w.wide};
 #else
-    const float *const a = ONE(0), *const b = ONE(1), *const c = ONE(2), *const d = ONE(3),
-                       *const e = ONE(4), *const f = ONE(5), *const g = ONE(6), *const h = ONE(7);
+    const float *const a = ONE(0), *const b = ONE(1), *const c = ONE(2), *const d = ONE(3), *const e = ONE(4),
+                       *const f = ONE(5), *const g = ONE(6), *const h = ONE(7);
     return (f8x4){{a[0], b[0], c[0], d[0], e[0], f[0], g[0], h[0]},
                   {a[1], b[1], c[1], d[1], e[1], f[1], g[1], h[1]},
                   {a[2], b[2], c[2], d[2], e[2], f[2], g[2], h[2]},

@@ -34,7 +34,8 @@ static CellMap cell_map(const Constants *constants)
 static inline i4 cell_along(const CellMap *map, int k, f4 x)
 {
     const f4 first = f4_splat(map->first[k]), last = f4_splat(map->last[k]);
-    const f4 held = f4_lesser(f4_greater((x - f4_splat(map->origin[k])) * f4_splat(map->inverse[k]), first), last);
+    const f4 held =
+        f4_lesser(f4_greater((x - f4_splat(map->origin[k])) * f4_splat(map->inverse[k]), first), last);
     const i4 towards_zero = __builtin_convertvector(held, i4),
              whole = towards_zero + (__builtin_convertvector(towards_zero, f4) > held);
     return whole - ((int)map->first[k] - 1);
@@ -77,7 +78,7 @@ static void find_cells(void *state, size_t begin, size_t end)
     const CpuParticles *p = &cpu->now;
     for (size_t i = begin; i < end; i += FOUR)
         four_put(cpu->spare_cell, i, end,
-                  (f4)cell_at(&map, f4_load(p->x, i), f4_load(p->y, i), f4_load(p->z, i)));
+                 (f4)cell_at(&map, f4_load(p->x, i), f4_load(p->y, i), f4_load(p->z, i)));
     for (size_t i = begin; cpu->boundary_at && i < end; i++)
         if (p->x[i] == ASIDE) /* in an extra cell that is never read */
             cpu->spare_cell[i] = (uint32_t)cpu->constants->cells.count;

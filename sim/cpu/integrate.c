@@ -35,8 +35,8 @@ static size_t guard(const DriftJob *drift, const WallsFar *inside, size_t i, flo
     return (size_t)by_solid + (size_t)by_wall;
 }
 
-/* Moves the particles from i on before `end`, at most FOUR, in a box at rest. False, and nothing is moved, if
-   one of them may meet a wall. */
+/* Moves particles i to i + 3 before `end`, in a box at rest. False without a move if a wall is
+   near. */
 static inline bool drift_free(const CpuParticles *p, const WallsFar *inside, float dt, size_t i, size_t end)
 {
     const f4 by = f4_splat(dt);

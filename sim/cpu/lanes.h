@@ -1,4 +1,4 @@
-/* Loops over particles without neighbours, four at a time: what every processor has. */
+/* Loops over particles without neighbours, four at a time: the width of every processor. */
 #ifndef SIM_CPU_LANES_H
 #define SIM_CPU_LANES_H
 
@@ -56,14 +56,14 @@ static inline unsigned i4_bits(i4 mask)
 #endif
 }
 
-/* Mask of the particles from i on that stand before `end`. */
+/* Mask of particles i to i + 3 before `end`. */
 static inline i4 four_before(size_t i, size_t end)
 {
     const int32_t left = (int32_t)(end - i < FOUR ? end - i : FOUR);
     return (i4){0, 1, 2, 3} < (i4){left, left, left, left};
 }
 
-/* Stores the results of particles i to i + 3 that stand before `end`. */
+/* Stores the results of particles i to i + 3 before `end`. */
 static inline void four_put(void *column, size_t i, size_t end, f4 value)
 {
     float *const to = (float *)column + i;

@@ -63,7 +63,8 @@ SIMD_INLINE void block_add(const PairArgs *args, const BlockBounds *around_box, 
 }
 
 /* Appends the neighbours at `at` among the candidates. */
-SIMD_INLINE void offer(const PairArgs *args, const float place[3], const CandidateBlock *block, ListWriter *out)
+SIMD_INLINE void offer(const PairArgs *args, const float place[3], const CandidateBlock *block,
+                       ListWriter *out)
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
     const f8 h2 = f8_splat(h * h), least2 = f8_splat(least * least);

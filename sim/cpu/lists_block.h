@@ -7,11 +7,11 @@
 
 enum { BLOCK_MOST = 2048 /* 32 kB: the fluid around a cell at the widest support */ };
 
-/* Candidates: positions and entries of lists. Past the last stand LANES positions that nothing is near. */
+/* Candidates: positions and entries of lists. LANES positions past the last are infinite. */
 typedef struct CandidateBlock {
     _Alignas(32) float x[BLOCK_MOST + LANES], y[BLOCK_MOST + LANES], z[BLOCK_MOST + LANES];
     int32_t j[BLOCK_MOST + LANES];
-    int count, own; /* `own`: the first of the particles whose lists are made */
+    int count, own; /* `own`: the first of the listed particles */
 } CandidateBlock;
 
 /* The bounding box of some particles: centre and half size, m. */

@@ -153,7 +153,8 @@ static __attribute__((noinline, unused)) Separation separate_to(const PairArgs *
     for (int k = 0; k < LANES; k++)
         if (d.r2[k] < least * least) {
             float direction[3] = {0};
-            direction_of_ids(args->id[i + (size_t)k], args->id[list_particle(j[k])], args->constants->dimensions, direction);
+            direction_of_ids(args->id[i + (size_t)k], args->id[list_particle(j[k])],
+                             args->constants->dimensions, direction);
             d.x[k] = direction[0] * length;
             d.y[k] = direction[1] * length;
             d.z[k] = direction[2] * length;

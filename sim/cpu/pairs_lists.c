@@ -72,7 +72,7 @@ static bool block_make(const PairArgs *args, const CellRowRanges *rows, size_t b
     return true;
 }
 
-/* Lists the particle at entry `own` of a block, which is away meanwhile. */
+/* Lists the particle at entry `own` of a block; meanwhile the particle is at infinity. */
 static void list_block(const PairArgs *args, size_t own, CandidateBlock *block, ListWriter *out)
 {
     const float at[3] = {block->x[own], block->y[own], block->z[own]};
@@ -113,8 +113,8 @@ static size_t most_of(const CellRowRanges *rows)
 
 /* Lists particle i, entry `own` of a block, after the group's lists so far. The list stays empty if memory is
    short. */
-static void list_one(const PairArgs *args, size_t i, const CellRowRanges *rows, CandidateBlock *block, size_t own,
-                     FoundNeighbours *found)
+static void list_one(const PairArgs *args, size_t i, const CellRowRanges *rows, CandidateBlock *block,
+                     size_t own, FoundNeighbours *found)
 {
     NeighbourLists *lists = args->lists;
     ListMemory *memory = &lists->found[i / LISTS_GRAIN];
@@ -148,7 +148,8 @@ static void list_group(const PairArgs *args, size_t i, const FoundNeighbours *fo
     lists->rows[i / LANES] = 0;
     if (rows == 0 || !neighbour_lists_fit(lists, memory, (size_t)*used + capacity))
         return;
-    interleave(lists->found[i / LISTS_GRAIN].index, found, rows, list_entry(args->none), memory->index + *used);
+    interleave(lists->found[i / LISTS_GRAIN].index, found, rows, list_entry(args->none),
+               memory->index + *used);
     lists->rows[i / LANES] = rows | (found->coincident ? LISTS_COINCIDENT : 0);
     *used += rows * LANES;
 }

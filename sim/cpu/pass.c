@@ -155,7 +155,7 @@ void cpu_force_end(const CpuRange *range)
     }
 }
 
-/* The first particle from i on before `end` that a wall is near, or `end`. */
+/* The first particle from i on near a wall, or `end`. */
 static inline size_t next_near(const WallsFar *far, const CpuParticles *p, size_t i, size_t end)
 {
     for (; i < end; i += FOUR) {

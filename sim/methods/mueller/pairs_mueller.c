@@ -112,8 +112,8 @@ SIMD_INLINE void push_by(const PairArgs *args, const ImageParticle *image, f8 pi
    pressure terms p_i V_i^2 + p_j V_j^2 (the gradient of sum e(n_i), so that energy is conserved), the
    forces are symmetric for every density ratio. Eq. 10 has (p_i + p_j) / 2 instead, which gives half of
    grad p: p_j alone sums up to grad p, and p_i is there for symmetry only. */
-SIMD_INLINE LaneVector force_of(const PairArgs *args, size_t i, const LaneImages *images, const bool coincident,
-                                const bool viscous, const bool many, const bool smooth)
+SIMD_INLINE LaneVector force_of(const PairArgs *args, size_t i, const LaneImages *images,
+                                const bool coincident, const bool viscous, const bool many, const bool smooth)
 {
     const Constants *s = args->constants;
     const f8 inverse_h = f8_splat(1 / s->support_radius), pressure_scale = f8_splat(s->pressure_scale);
@@ -152,10 +152,10 @@ SIMD_INLINE LaneVector force_of(const PairArgs *args, size_t i, const LaneImages
     return sum;
 }
 
-/* For the rare group in which some nearly coincide: a loop of its own, so that the usual one has no test. */
+/* For a group with coincident particles: a loop apart, since the test would cost the usual loop registers. */
 static __attribute__((noinline)) LaneVector coincident_force(const PairArgs *args, size_t i,
-                                                             const LaneImages *images, bool viscous, bool many,
-                                                             bool smooth)
+                                                             const LaneImages *images, bool viscous,
+                                                             bool many, bool smooth)
 {
     return force_of(args, i, images, true, viscous, many, smooth);
 }

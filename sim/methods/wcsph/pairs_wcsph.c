@@ -250,9 +250,9 @@ SIMD_INLINE f8 artificial_of(const float *column, f8 ai, const uint32_t *j)
    separating pairs): V_i V_j (mu_i + mu_j) F v_ji or V_i V_j (mu_i + mu_j) R F (v_ji . x_ij) x_ij, and -V_i
    V_j (a_i + a_j) (v_ij . x_ij) / (r^2 + h^2 / 400) F x_ij, with V at most the value at THINNEST. With
    `shifts` also the sums for sim/methods/wcsph/wcsph_passes.c. */
-SIMD_INLINE void wcsph_group(const PairArgs *args, size_t i, size_t begin, size_t end, const ShapeKernel kernel,
-                             const bool viscous, const bool radial, const bool artificial, const bool shifts,
-                             const bool coincident)
+SIMD_INLINE void wcsph_group(const PairArgs *args, size_t i, size_t begin, size_t end,
+                             const ShapeKernel kernel, const bool viscous, const bool radial,
+                             const bool artificial, const bool shifts, const bool coincident)
 {
     const Constants *s = args->constants;
     const WcsphBlock *w = wcsph_constants(s);
@@ -315,10 +315,10 @@ SIMD_INLINE void wcsph_group(const PairArgs *args, size_t i, size_t begin, size_
     }
 }
 
-/* For the rare group in which some nearly coincide: a loop of its own, so that the usual one has no test. */
-static __attribute__((noinline)) void coincident_group(const PairArgs *args, size_t i, size_t begin, size_t end,
-                                                       ShapeKernel kernel, bool viscous, bool radial,
-                                                       bool artificial, bool shifts)
+/* For a group with coincident particles: a loop apart, since the test would cost the usual loop registers. */
+static __attribute__((noinline)) void coincident_group(const PairArgs *args, size_t i, size_t begin,
+                                                       size_t end, ShapeKernel kernel, bool viscous,
+                                                       bool radial, bool artificial, bool shifts)
 {
     wcsph_group(args, i, begin, end, kernel, viscous, radial, artificial, shifts, true);
 }
