@@ -35,24 +35,40 @@ static size_t guard(const DriftJob *drift, const WallsFar *inside, size_t i, flo
     return (size_t)by_solid + (size_t)by_wall;
 }
 
-/* Moves particles i to i + 3 before `end`, in a box at rest. False without a move if a wall is
-   near. */
-static inline bool drift_free(const CpuParticles *p, const WallsFar *inside, float dt, size_t i, size_t end)
+/* place_move of sim/box/box.h. */
+static inline f4 four_move(f4 x, f4 *left, f4 way, const bool wide)
 {
-    const f4 by = f4_splat(dt);
-    const f4 x = f4_load(p->x, i) + f4_load(p->vx, i) * by, y = f4_load(p->y, i) + f4_load(p->vy, i) * by,
-             z = f4_load(p->z, i) + f4_load(p->vz, i) * by;
-    if (i4_bits(four_near_walls(inside, x, y, z) & four_before(i, end)) != 0)
+    const f4 sum = x + way, added = sum - x;
+    if (!wide)
+        return sum;
+    const f4 all = *left + ((x - (sum - added)) + (way - added)), moved = sum + all;
+    *left = all - (moved - sum);
+    return moved;
+}
+
+/* Moves particles i to i + 3 before `end`, in a box at rest. False without a move if a wall is near. */
+static inline bool drift_free(const CpuParticles *p, const WallsFar *inside, float dt, size_t i, size_t end,
+                              const bool wide)
+{
+    float *const place[3] = {p->x, p->y, p->z}, *const speed[3] = {p->vx, p->vy, p->vz};
+    f4 x[3], left[3];
+    for (int k = 0; k < 3; k++) {
+        left[k] = wide ? f4_load(p->own[COLUMNS_LEFT + k], i) : f4_splat(0);
+        x[k] = four_move(f4_load(place[k], i), &left[k], f4_load(speed[k], i) * f4_splat(dt), wide);
+    }
+    if (i4_bits(four_near_walls(inside, x[0], x[1], x[2]) & four_before(i, end)) != 0)
         return false;
-    four_put(p->x, i, end, x);
-    four_put(p->y, i, end, y);
-    four_put(p->z, i, end, z);
+    for (int k = 0; k < 3; k++) {
+        four_put(place[k], i, end, x[k]);
+        if (wide)
+            four_put(p->own[COLUMNS_LEFT + k], i, end, left[k]);
+    }
     return true;
 }
 
 /* Number of times guards held particles of the run [begin, end). */
-static size_t drift_each(const DriftJob *drift, const WallsFar *inside, size_t begin, size_t end,
-                         CpuForceSums *sums, const bool wide)
+static inline size_t drift_each(const DriftJob *drift, const WallsFar *inside, size_t begin, size_t end,
+                                CpuForceSums *sums, const bool wide)
 {
     const Cpu *cpu = drift->cpu;
     const CpuParticles *p = &cpu->now;
@@ -84,19 +100,18 @@ static size_t drift_each(const DriftJob *drift, const WallsFar *inside, size_t b
     return held;
 }
 
-static size_t drift_run(const DriftJob *drift, size_t begin, size_t end, CpuForceSums *sums)
+static inline size_t drift_run(const DriftJob *drift, size_t begin, size_t end, CpuForceSums *sums,
+                               const bool wide)
 {
     const Constants *s = drift->cpu->constants;
     const WallsFar inside = walls_far(&s->walls, 0);
     size_t held = 0;
-    if (s->wide)
-        return drift_each(drift, &inside, begin, end, sums, true);
     if (!drift->step->still || drift->step->solids || s->periodic.any)
-        return drift_each(drift, &inside, begin, end, sums, false);
+        return drift_each(drift, &inside, begin, end, sums, wide);
     for (size_t i = begin; i < end; i += FOUR) {
         const size_t stop = i + FOUR < end ? i + FOUR : end;
-        if (!drift_free(&drift->cpu->now, &inside, drift->step->dt, i, stop))
-            held += drift_each(drift, &inside, i, stop, sums, false);
+        if (!drift_free(&drift->cpu->now, &inside, drift->step->dt, i, stop, wide))
+            held += drift_each(drift, &inside, i, stop, sums, wide);
     }
     return held;
 }
@@ -109,7 +124,8 @@ static void drift_range(void *context, size_t begin, size_t end)
     size_t held = 0;
     sums.any = false;
     for (size_t i = begin, stop; cpu_run(drift->cpu, &i, end, &stop); i = stop)
-        held += drift_run(drift, i, stop, sums_forces ? &sums : NULL);
+        held += drift->cpu->constants->wide ? drift_run(drift, i, stop, sums_forces ? &sums : NULL, true)
+                                            : drift_run(drift, i, stop, sums_forces ? &sums : NULL, false);
     if (sums_forces)
         cpu_force_sums_merge(drift->cpu, &sums);
     if (held)
