@@ -4,6 +4,7 @@
 #include "sim/cpu/cpu.h"
 
 #include "sim/base/base.h"
+#include "sim/cpu/lanes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,8 +24,6 @@ enum { ITERATIONS_MOST = 400 }; /* of conjugate gradients */
 
 /* Vectors of conjugate gradients. */
 enum { VALUE, RESIDUAL, DIRECTION, BENT, INVERSE, VECTORS };
-
-typedef float f4 __attribute__((vector_size(16)));
 
 /* Sums over particles of a cell. At x in [0, 1] along an axis corners have l_0 = 1 - x and l_1 = x, and
    products l_a l_b are q_(a + b): (1 - x)^2, x (1 - x), x^2. The fourth float is unused. */
