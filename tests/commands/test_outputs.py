@@ -384,9 +384,10 @@ class Info(CommandTest):
         self.assertIn(f"threads\n  {found['threads']}\n", printed)
         self.assertIn(f"renderer\n  {found['renderer']}\n", printed)
         names = [row['name'] for rows in found.values() if isinstance(rows, list) for row in rows]
-        rows = [line.split()[0] for line in re.sub(r'^(renderer|threads)\n.*\n', '', printed, flags=re.M).splitlines()
+        rows = [line[2:] for line in re.sub(r'^(renderer|threads)\n.*\n', '', printed, flags=re.M).splitlines()
                 if line.startswith('  ') and line[2] != ' ']
-        self.assertEqual(names, rows)
+        self.assertEqual(names, [row[:len(name)] for name, row in zip(names, rows)])
+        self.assertEqual(len(names), len(rows))
         for key in ('backends', 'methods', 'presets', 'views', 'scalars', 'exports', 'metrics', 'motions'):
             self.assertGreater(len(found[key]), 1, key)
         self.assertEqual({'name': 'cpu', 'runs': True}, {key: found['backends'][0][key] for key in ('name', 'runs')})
