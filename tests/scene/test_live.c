@@ -208,7 +208,7 @@ static void messages_are_those_of_set(void **state)
         "view.range=[1, 1]",
         "view.legend=1",
         "view.splat.eps=0",
-        "view.splat.weights=w2",
+        "view.splat.weights=w3",
         "view.splat.level=1.5",
         "view.splat.filter=bilateral",
         "view.splat.filter_iterations=0",
