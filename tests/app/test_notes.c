@@ -73,6 +73,7 @@ static const struct {
     {"solver.corrected_gradient=true", "solver.method=wcsph", "solver.method: wcsph", true},
     {"solver.tolerance=1e-8", "solver.method=dfsph", "solver.method: dfsph", true},
     {"solver.divergence_tolerance=1e-8", "solver.method=dfsph", "solver.method: dfsph", true},
+    {"solver.coarse=true", "solver.method=dfsph", "solver.method: dfsph", false},
     {"solver.surface_lack=1", "solver.method=dfsph", "solver.method: dfsph", false},
     {"solver.rest_viscosity=0.3", "solver.method=dfsph", "solver.method: dfsph", true},
     {"solver.iterations=50", "solver.method=dfsph", "solver.method: dfsph", false},
