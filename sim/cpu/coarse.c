@@ -485,7 +485,7 @@ void cpu_coarse_correct(Cpu *cpu, const CoarseTerms *terms)
     if (cpu->add_all)
         cpu->add_all(level->fluid, level->cells);
     number_cells(level);
-    if (!all_have(cpu, make_room(level)))
+    if (!all_have(cpu, make_room(level)) || level->used == 0)
         return;
     number_nodes(level);
     memset(level->sums, 0, level->used * sizeof *level->sums);

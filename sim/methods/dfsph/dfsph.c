@@ -16,7 +16,7 @@ static const Key keys[] = {
     NUMBER("solver.divergence_tolerance", 0, "", 0, 1, offsetof(DfsphDef, divergence_tolerance), "mean compression that a step's velocities may make"),
     INTEGER("solver.iterations", 0, 1, 10000, offsetof(DfsphDef, iterations), "of each solver, at most"),
     BOOLEAN("solver.coarse", 0, offsetof(DfsphDef, coarse),
-            "a coarse grid corrects the pressure where iterations are slow, as in deep water; backend cpu"),
+            "a coarse grid corrects the pressure where iterations are slow, as in deep water; not beside solids; backend cpu"),
     NUMBER("solver.surface_lack", 0, "", 0, 1, offsetof(DfsphDef, surface_lack),
            "part of the neighbours missing at a free surface that the solvers add: 1, else a dense skin slows waves; 0: none", .off = "0"),
     NUMBER("solver.rest_viscosity", 0, "", 0, 1, offsetof(DfsphDef, rest_viscosity),
@@ -71,13 +71,20 @@ static const double CALM = 0.2;
    rests, in fewer iterations: fluid at rest needs no iteration. */
 static const double STILL = 1e-5;
 
+/* Beside a solid the level leaves pressures that move a floating solid wrong (docs/labbook/methods.md). */
+static bool has_coarse(const Substep *step)
+{
+    return dfsph_solvers(step->constants)->coarse && step->constants->solid_count == 0;
+}
+
 /* Solve to `tolerance`; a mean above STEP_SOLVE_STANDS times `allowed` is trouble. */
 static void solve(const Substep *step, int which, const Pass *const passes[4], double tolerance,
                   double allowed)
 {
     const DfsphConstants *own = dfsph_solvers(step->constants);
     const Iteration iteration = {.passes = {passes[1], passes[2]},
-                                 .coarse = own->coarse && which == SOLVE_DIVERGENCE ? &dfsph_coarse : NULL,
+                                 .coarse =
+                                     which == SOLVE_DIVERGENCE && has_coarse(step) ? &dfsph_coarse : NULL,
                                  .residual = dfsph_miss,
                                  .tolerance = tolerance,
                                  .worst = fmax(WORST * tolerance, WORTH[which]),

@@ -472,7 +472,7 @@ static void divergence_rate(const CpuRange *range)
     rate(range, false);
 }
 
-/* --- the coarse level of the solver of divergence --- */
+/* --- the coarse level of the solver of divergence, without solids --- */
 
 /* For k_i = v(x_i) where k > 0, a force sum (k_i + k_j) F x_ij is u v - C grad v: u is the force of k = 1, C
    is pressure_of_term / n0, half as much at a surface. The level adds the squares of both parts, over the
@@ -514,7 +514,6 @@ static void coarse_body(const CpuRange *range)
     const Cpu *cpu = range->cpu;
     const CpuParticles *p = &cpu->now;
     const DfsphBlock *block = dfsph_constants(cpu->constants);
-    float *const *slope = p->own + SOLID + SOLID_SLOPE; /* NULL: a world without solids */
     const float mass = lightest(cpu->constants), unit = 1 / coarse_slope(cpu->constants),
                 over_lack = block->surface_lack > 0 ? 1 / block->surface_lack : 0;
     if (cpu->thin)
@@ -526,7 +525,7 @@ static void coarse_body(const CpuRange *range)
         float *const a[3] = {&p->ax[i], &p->ay[i], &p->az[i]};
         float square = 0;
         for (int k = 0; k < 3; k++) {
-            const float push = unit * (*a[k] + (slope[k] ? holds * slope[k][i] : 0));
+            const float push = unit * *a[k];
             square += push * push;
         }
         *a[COARSE_WEIGHT] = holds * light * whole * whole;
@@ -613,7 +612,7 @@ const Pass dfsph_coarse = {
     .name = "coarse",
     .stage = STAGE_SOLVE,
     .cpu = &coarse,
-    .reads = "position id fluid pressure_term residual lack inverse_mass solid_slope",
+    .reads = "position id fluid pressure_term residual lack inverse_mass",
     .writes = "pressure_term acceleration",
 };
 const Pass dfsph_divergence_end = {
