@@ -16,7 +16,7 @@ enum {
     NONE = -1,
 };
 
-/* Sums as integers count this part of 1; a particle adds some hundreds at most. */
+/* Sums as integers count this part of 1. A particle adds PART_MOST at most, and weights of the order of 1. */
 static const double FIXED = 0x1p36;
 static const float PART_MOST = 100;
 
@@ -26,7 +26,8 @@ enum { ITERATIONS_MOST = 400 }; /* of conjugate gradients */
 enum { VALUE, RESIDUAL, DIRECTION, BENT, INVERSE, VECTORS };
 
 /* Sums over particles of a cell. At x in [0, 1] along an axis corners have l_0 = 1 - x and l_1 = x, and
-   products l_a l_b are q_(a + b): (1 - x)^2, x (1 - x), x^2. The fourth float is unused. */
+   products l_a l_b are q_(a + b): (1 - x)^2, x (1 - x), x^2. The fourth float of a row of q is
+   unused. */
 typedef struct CellSums {
     f4 slope[3][3]; /* by axis k: sum weight q q over the two axes other than k */
     f4 hold[3][3];  /* sum hold q q q */

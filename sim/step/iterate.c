@@ -45,7 +45,7 @@ static bool goes_on(const Iteration *iteration, const IterationFound *found)
 
 /* An iteration carries an error a support radius further: long waves need many iterations. After two
    iterations a coarse correction is due if COARSE_WORTH more of the same effect would not reach the
-   tolerance. The next correction is due COARSE_EVERY iterations later. */
+   tolerance. The next correction is due COARSE_EVERY iterations later at the earliest. */
 enum { COARSE_WORTH = 5, COARSE_EVERY = 4 };
 
 /* Mean residuals of an iteration and the two before, and iterations until the next correction. */
@@ -61,8 +61,12 @@ static bool is_slow(const Iteration *iteration, double mean, Progress *progress)
     progress->mean[2] = mean;
     if (!iteration->coarse || --progress->wait >= 0)
         return false;
-    const double part = sqrt(mean / progress->mean[0]);
-    if (!(mean * pow(part, COARSE_WORTH) > iteration->tolerance))
+    /* The test squared: without libm, whose last bit may differ between the processors of ranks. */
+    const double part2 = mean / progress->mean[0], tolerance = iteration->tolerance;
+    double left2 = mean * mean;
+    for (int k = 0; k < COARSE_WORTH; k++)
+        left2 *= part2;
+    if (!(left2 > tolerance * tolerance))
         return false;
     progress->wait = COARSE_EVERY - 1;
     return true;

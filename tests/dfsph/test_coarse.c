@@ -211,11 +211,11 @@ static void thin_fluid_is_left_alone(void **state)
 /* --- in a step --- */
 
 /* A tank that is heaved by 0.45 g, `deep` layers of water. */
-static WorldDef heaved(int deep, bool coarse)
+static WorldDef heaved(double wide, int deep, bool coarse)
 {
     static const Motion motion = {
         .kind = MOTION_SHAKE, .axis = {0, 1, 0}, .amplitude = 0.05, .frequency = 1.5};
-    WorldDef def = fixture_def(0.5, 0.0375 * deep, 0);
+    WorldDef def = fixture_def(wide, 0.0375 * deep, 0);
     strcpy(def.method, "dfsph");
     def.dimensions = 2;
     def.spacing = 0.025;
@@ -226,13 +226,13 @@ static WorldDef heaved(int deep, bool coarse)
     dfsph_def(&def)->coarse = coarse;
     dfsph_def(&def)->surface_lack = 1;
     add_motion(&def, motion);
-    fixture_block(&def, 0, -0.25, 0, 0, 0.25, 0.025 * deep, 0);
+    fixture_block(&def, 0, -0.5 * wide, 0, 0, 0.5 * wide, 0.025 * deep, 0);
     return def;
 }
 
 static double iterations_of(int deep, bool coarse)
 {
-    const WorldDef def = heaved(deep, coarse);
+    const WorldDef def = heaved(0.5, deep, coarse);
     World *world = fixture_world(&def);
     WorldInfo info;
     do {
@@ -263,11 +263,12 @@ static void steps_have_the_same_bits_on_any_threads(void **state)
     (void)state;
     uint64_t hash[2];
     for (int k = 0; k < 2; k++) {
-        WorldDef def = heaved(40, true);
+        WorldDef def = heaved(5.5, 40, true); /* several ranges of each loop */
         *world_threads(&def) = 1 + 2 * k;
         World *world = fixture_world(&def);
         fixture_step(world, 40);
         hash[k] = world_hash(world);
+        assert_non_null(((const Cpu *)world->state)->coarse);
         world_destroy(world);
     }
     assert_true(hash[0] != 0 && hash[0] == hash[1]);
