@@ -53,8 +53,8 @@ static inline bool drift_free(const CpuParticles *p, const WallsFar *inside, flo
     float *const place[3] = {p->x, p->y, p->z}, *const speed[3] = {p->vx, p->vy, p->vz};
     f4 x[3], left[3];
     for (int k = 0; k < 3; k++) {
-        left[k] = wide ? f4_load(p->own[COLUMNS_LEFT + k], i) : f4_splat(0);
-        x[k] = four_move(f4_load(place[k], i), &left[k], f4_load(speed[k], i) * f4_splat(dt), wide);
+        left[k] = wide ? four_get(p->own[COLUMNS_LEFT + k], i, end) : f4_splat(0);
+        x[k] = four_move(four_get(place[k], i, end), &left[k], f4_load(speed[k], i) * f4_splat(dt), wide);
     }
     if (i4_bits(four_near_walls(inside, x[0], x[1], x[2]) & four_before(i, end)) != 0)
         return false;
@@ -234,8 +234,8 @@ static void kick_run(const KickJob *kick, size_t begin, size_t end)
         const f4 ax = f4_load(p->ax, i) + f4_splat(kick->gravity[0]),
                  ay = f4_load(p->ay, i) + f4_splat(kick->gravity[1]),
                  az = f4_load(p->az, i) + f4_splat(kick->gravity[2]);
-        const f4 vx = f4_load(p->vx, i) + ax * dt, vy = f4_load(p->vy, i) + ay * dt,
-                 vz = f4_load(p->vz, i) + az * dt;
+        const f4 vx = four_get(p->vx, i, end) + ax * dt, vy = four_get(p->vy, i, end) + ay * dt,
+                 vz = four_get(p->vz, i, end) + az * dt;
         const f4 v2 = f4_select(there, vx * vx + vy * vy + vz * vz, none), a2 = ax * ax + ay * ay + az * az;
         four_put(p->vx, i, end, vx);
         four_put(p->vy, i, end, vy);

@@ -63,6 +63,16 @@ static inline i4 four_before(size_t i, size_t end)
     return (i4){0, 1, 2, 3} < (i4){left, left, left, left};
 }
 
+/* The same of a column that the loop writes: 0 from `end` on, where another thread may write. */
+static inline f4 four_get(const float *column, size_t i, size_t end)
+{
+    f4 value = {0, 0, 0, 0};
+    if (i + FOUR <= end)
+        return f4_load(column, i);
+    memcpy(&value, column + i, (end - i) * sizeof *column);
+    return value;
+}
+
 /* Stores the results of particles i to i + 3 before `end`. */
 static inline void four_put(void *column, size_t i, size_t end, f4 value)
 {
