@@ -274,12 +274,27 @@ static void steps_have_the_same_bits_on_any_threads(void **state)
     assert_true(hash[0] != 0 && hash[0] == hash[1]);
 }
 
+/* The level is left out where a solid is, since a floating solid got wrong forces. */
+static void solids_have_no_level(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        WorldDef def = heaved(0.5, 40, true);
+        if (k == 1)
+            def.solids[def.solid_count++] =
+                (SolidDef){.kind = SOLID_SPHERE, .centre = {0, 1.3, 0}, .radius = 0.1, .axis = {0, 1, 0}};
+        World *world = fixture_world(&def);
+        fixture_step(world, 40);
+        assert_true((((const Cpu *)world->state)->coarse == NULL) == (k == 1));
+        world_destroy(world);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(corrections_are_those_of_all_particles),
-        cmocka_unit_test(thin_fluid_is_left_alone),
-        cmocka_unit_test(deep_water_takes_no_more_iterations),
+        cmocka_unit_test(corrections_are_those_of_all_particles),  cmocka_unit_test(thin_fluid_is_left_alone),
+        cmocka_unit_test(deep_water_takes_no_more_iterations),     cmocka_unit_test(solids_have_no_level),
         cmocka_unit_test(steps_have_the_same_bits_on_any_threads),
     };
     return cmocka_run_group_tests_name("dfsph.coarse", tests, NULL, NULL);
