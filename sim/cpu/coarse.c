@@ -11,16 +11,14 @@
 #include <string.h>
 
 enum {
-    CORNERS = 8,          /* of a cell: bit k of a corner's number: the far end along axis k */
-    CELLS_MOST = 1 << 21, /* of the box; in a larger box cells are wider */
+    CORNERS = COARSE_CORNERS,
+    CELLS_MOST = 1 << 21, /* of the box */
     NONE = -1,
 };
 
-/* Sums as integers count this part of 1. A particle adds PART_MOST at most, and weights of the order of 1. */
+/* Sums as integers count this part of 1. A particle adds COARSE_PART_MOST at most, and weights of the order
+ * of 1. */
 static const double FIXED = 0x1p36;
-static const float PART_MOST = 100;
-
-enum { ITERATIONS_MOST = 400 }; /* of conjugate gradients */
 
 /* Vectors of conjugate gradients. */
 enum { VALUE, RESIDUAL, DIRECTION, BENT, INVERSE, VECTORS };
@@ -43,11 +41,9 @@ typedef struct CoarseSums {
 typedef double CornerMatrix[CORNERS][CORNERS];
 
 struct CoarseLevel {
-    int inner[3], wide, count[3]; /* along an axis: cells of the grid; cells in a coarse cell; coarse cells */
-    int along[3];                 /* nodes along an axis */
-    size_t cells, nodes;          /* of the box */
-    int64_t *fluid;               /* per cell: above 0 with fluid */
-    int32_t *at, *node_at;        /* number among cells and nodes with fluid, or NONE */
+    CoarseShape shape;
+    int64_t *fluid;                /* per cell: above 0 with fluid */
+    int32_t *at, *node_at;         /* number among cells and nodes with fluid, or NONE */
     size_t used, used_nodes, room; /* cells and nodes with fluid; room for cells */
     CoarseSums *sums;
     int32_t (*corner)[CORNERS]; /* nodes of the cells with fluid */
@@ -81,32 +77,15 @@ void cpu_coarse_destroy(CoarseLevel *level)
     free(level);
 }
 
-/* The last cell along an axis may be wider. */
-static void shape(CoarseLevel *level, const Constants *constants, int wide)
-{
-    level->wide = wide;
-    level->cells = level->nodes = 1;
-    for (int k = 0; k < 3; k++) {
-        const int inner = constants->cells.size[k] > 2 ? constants->cells.size[k] - 2 : 1,
-                  count = inner / wide > 1 ? inner / wide : 1;
-        level->inner[k] = inner;
-        level->count[k] = count;
-        level->along[k] = count + (constants->periodic.axis[k] || k >= constants->dimensions ? 0 : 1);
-        level->cells *= (size_t)count;
-        level->nodes *= (size_t)level->along[k];
-    }
-}
-
 static CoarseLevel *create(const Constants *constants)
 {
     CoarseLevel *level = calloc(1, sizeof *level);
     if (!level)
         return NULL;
-    for (int wide = 2; wide == 2 || level->cells > CELLS_MOST; wide *= 2)
-        shape(level, constants, wide);
-    level->fluid = malloc(level->cells * sizeof *level->fluid);
-    level->at = malloc(level->cells * sizeof *level->at);
-    level->node_at = malloc(level->nodes * sizeof *level->node_at);
+    level->shape = coarse_shape(constants, CELLS_MOST);
+    level->fluid = malloc(level->shape.cells * sizeof *level->fluid);
+    level->at = malloc(level->shape.cells * sizeof *level->at);
+    level->node_at = malloc(level->shape.nodes * sizeof *level->node_at);
     if (level->fluid && level->at && level->node_at)
         return level;
     cpu_coarse_destroy(level);
@@ -144,18 +123,18 @@ typedef struct CoarseCell {
 /* The coarse cell around a cell of the grid. */
 static CoarseCell around(const Cpu *cpu, uint32_t cell)
 {
-    const CoarseLevel *level = cpu->coarse;
+    const CoarseShape *shape = &cpu->coarse->shape;
     const CellGrid *cells = &cpu->constants->cells;
     const uint32_t width = (uint32_t)cells->size[0], height = (uint32_t)cells->size[1];
     const int grid[3] = {(int)(cell % width), (int)(cell / width % height), (int)(cell / width / height)};
     CoarseCell found = {.number = 0};
     for (int k = 2; k >= 0; k--) {
-        const int last = level->count[k] - 1, inner = grid[k] > 1 ? grid[k] - 1 : 0,
-                  at = inner / level->wide < last ? inner / level->wide : last;
+        const int last = shape->count[k] - 1, inner = grid[k] > 1 ? grid[k] - 1 : 0,
+                  at = inner / shape->wide < last ? inner / shape->wide : last;
         found.at[k] = at;
-        found.from[k] = (float)(cells->first[k] + 1 + at * level->wide);
-        found.over[k] = 1 / (float)(at < last ? level->wide : level->inner[k] - at * level->wide);
-        found.number = found.number * (size_t)level->count[k] + (size_t)at;
+        found.from[k] = (float)(cells->first[k] + 1 + at * shape->wide);
+        found.over[k] = 1 / (float)(at < last ? shape->wide : shape->inner[k] - at * shape->wide);
+        found.number = found.number * (size_t)shape->count[k] + (size_t)at;
     }
     return found;
 }
@@ -192,8 +171,8 @@ static inline f4 squares(float x)
 static inline void add_particle(const CoarseTerms *terms, size_t i, const float at[3], CellSums *sum)
 {
     const f4 qx = squares(at[0]), qy = squares(at[1]), qz = squares(at[2]);
-    const float weight = terms->weight[i], hold = bounded(terms->hold[i], 0, PART_MOST),
-                residual = bounded(terms->residual[i], -PART_MOST, PART_MOST);
+    const float weight = terms->weight[i], hold = bounded(terms->hold[i], 0, COARSE_PART_MOST),
+                residual = bounded(terms->residual[i], -COARSE_PART_MOST, COARSE_PART_MOST);
     for (int b = 0; b < 3; b++) {
         sum->slope[0][b] += weight * qy[b] * qz;
         sum->slope[1][b] += weight * qx[b] * qz;
@@ -276,10 +255,10 @@ static void mark_range(void *context, size_t begin, size_t end)
 static size_t node_of(const CoarseLevel *level, size_t cell, int corner)
 {
     size_t node = 0;
-    const size_t row = cell / (size_t)level->count[0], slice = row / (size_t)level->count[1];
-    const size_t at[3] = {cell % (size_t)level->count[0], row % (size_t)level->count[1], slice};
+    const size_t row = cell / (size_t)level->shape.count[0], slice = row / (size_t)level->shape.count[1];
+    const size_t at[3] = {cell % (size_t)level->shape.count[0], row % (size_t)level->shape.count[1], slice};
     for (int k = 2; k >= 0; k--) {
-        const size_t along = (size_t)level->along[k], place = at[k] + (corner >> k & 1);
+        const size_t along = (size_t)level->shape.along[k], place = at[k] + (corner >> k & 1);
         node = node * along + (place < along ? place : 0); /* across a periodic side; z in the plane */
     }
     return node;
@@ -289,15 +268,15 @@ static size_t node_of(const CoarseLevel *level, size_t cell, int corner)
 static void number_cells(CoarseLevel *level)
 {
     level->used = 0;
-    for (size_t k = 0; k < level->cells; k++)
+    for (size_t k = 0; k < level->shape.cells; k++)
         level->at[k] = level->fluid[k] > 0 ? (int32_t)level->used++ : NONE;
 }
 
 static void number_nodes(CoarseLevel *level)
 {
-    memset(level->node_at, NONE, level->nodes * sizeof *level->node_at);
+    memset(level->node_at, NONE, level->shape.nodes * sizeof *level->node_at);
     level->used_nodes = 0;
-    for (size_t k = 0; k < level->cells; k++)
+    for (size_t k = 0; k < level->shape.cells; k++)
         for (int c = 0; level->at[k] != NONE && c < CORNERS; c++) {
             int32_t *node = &level->node_at[node_of(level, k, c)];
             if (*node == NONE)
@@ -306,12 +285,7 @@ static void number_nodes(CoarseLevel *level)
         }
 }
 
-/* Where much holds v, few cells lie between surfaces, and a correction saves no iterations.
-   Heaved tanks of 20 layers have hold over weight of 0.20 in the plane and 0.25 in space, and gain. Those of
-   10 layers have 0.43, with a loss of a quarter, and 0.52, with a gain of a quarter. The sum of l_a l_b over
-   both corners is q_0 + 2 q_1 + q_2 = 1. */
-static const double THIN = 0.4;
-
+/* The sum of l_a l_b over both corners is q_0 + 2 q_1 + q_2 = 1. */
 static bool is_thin(const CoarseLevel *level)
 {
     static const double times[3] = {1, 2, 1};
@@ -324,7 +298,7 @@ static bool is_thin(const CoarseLevel *level)
                 for (int a = 0; a < 3; a++)
                     hold += times[a] * times[b] * times[c] * (double)sums->hold[9 * a + 3 * b + c];
             }
-    return !(hold < THIN * weight);
+    return !(hold < (double)COARSE_THIN * weight);
 }
 
 /* --- the system of the nodes --- */
@@ -335,8 +309,9 @@ static void fill_matrix(const Cpu *cpu, const int cell[3], const CoarseSums *sum
     const CoarseLevel *level = cpu->coarse;
     double over[3] = {0};
     for (int k = 0; k < 3 && k < cpu->constants->dimensions; k++) {
-        const int cells =
-            cell[k] < level->count[k] - 1 ? level->wide : level->inner[k] - cell[k] * level->wide;
+        const int cells = cell[k] < level->shape.count[k] - 1
+                              ? level->shape.wide
+                              : level->shape.inner[k] - cell[k] * level->shape.wide;
         const double width =
             cells / (double)(cpu->constants->cells.inverse[k] * cpu->constants->support_radius);
         over[k] = 1 / (FIXED * width * width);
@@ -358,12 +333,13 @@ static void assemble(const Cpu *cpu)
     double *residual = level->vector[RESIDUAL], *inverse = level->vector[INVERSE];
     memset(residual, 0, level->used_nodes * sizeof *residual);
     memset(inverse, 0, level->used_nodes * sizeof *inverse);
-    for (size_t k = 0; k < level->cells; k++) {
+    for (size_t k = 0; k < level->shape.cells; k++) {
         if (level->at[k] == NONE)
             continue;
-        const size_t at = (size_t)level->at[k], row = k / (size_t)level->count[0];
-        const int cell[3] = {(int)(k % (size_t)level->count[0]), (int)(row % (size_t)level->count[1]),
-                             (int)(row / (size_t)level->count[1])};
+        const size_t at = (size_t)level->at[k], row = k / (size_t)level->shape.count[0];
+        const int cell[3] = {(int)(k % (size_t)level->shape.count[0]),
+                             (int)(row % (size_t)level->shape.count[1]),
+                             (int)(row / (size_t)level->shape.count[1])};
         fill_matrix(cpu, cell, &level->sums[at], level->matrix[at]);
         for (int c = 0; c < CORNERS; c++) {
             residual[level->corner[at][c]] += (double)level->sums[at].residual[c] / FIXED;
@@ -419,7 +395,7 @@ static void solve(CoarseLevel *level, double left)
     memset(value, 0, count * sizeof *value);
     for (size_t k = 0; k < count; k++)
         direction[k] = inverse[k] * residual[k];
-    for (int done = 0; power > enough && done < ITERATIONS_MOST; done++) {
+    for (int done = 0; power > enough && done < COARSE_ITERATIONS_MOST; done++) {
         multiply(level, direction, bent);
         const double curvature = dot(direction, bent, count), go = curvature > 0 ? power / curvature : 0,
                      before = power;
@@ -481,10 +457,10 @@ void cpu_coarse_correct(Cpu *cpu, const CoarseTerms *terms)
     if (!all_have(cpu, cpu->coarse != NULL))
         return;
     CoarseLevel *level = cpu->coarse;
-    memset(level->fluid, 0, level->cells * sizeof *level->fluid);
+    memset(level->fluid, 0, level->shape.cells * sizeof *level->fluid);
     parallel_ranges(cpu->threads, cpu->owned, GRAIN, mark_range, &job);
     if (cpu->add_all)
-        cpu->add_all(level->fluid, level->cells);
+        cpu->add_all(level->fluid, level->shape.cells);
     number_cells(level);
     if (!all_have(cpu, make_room(level)) || level->used == 0)
         return;

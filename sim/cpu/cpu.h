@@ -314,11 +314,8 @@ void cpu_cushion(const CpuRange *range);
    below the pressure of `from` + 1 layers, so that a drop on a wall falls freely. */
 void cpu_wall_lift(const CpuRange *range, float from);
 
-/* A coarse level for a solver whose iterations move short waves only: sim/cpu/coarse.c. A correction adds to
-   a value per particle the smooth function v with the least
-     sum weight |h grad v|^2 + hold v^2 - 2 residual v
-   over the own fluid particles. h is the support radius. Weights, holds and residuals are of the order of 1:
-   sums have 36 bits below 1, and a hold or residual counts up to 100. */
+/* The coarse level (sim/step/backend.h) of the own fluid particles. Weights, holds and residuals are of the
+   order of 1: sums have 36 bits below 1, and a hold or residual counts up to 100. */
 typedef struct CoarseTerms {
     const float *weight; /* per particle, at least 0; with 0 the particle's value stays */
     const float *hold;   /* at least 0: what holds v at 0, as a free surface holds pressure */

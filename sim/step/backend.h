@@ -3,6 +3,7 @@
 #ifndef SIM_STEP_BACKEND_H
 #define SIM_STEP_BACKEND_H
 
+#include "shaders/sim/step/coarse_rule.h"
 #include "sim/base/key.h"
 #include "sim/box/box.h"
 #include "sim/flow/flow.h"
@@ -47,6 +48,23 @@ static inline uint32_t cell_fold_of(const CellFold *fold, const CellGrid *cells,
         return (uint32_t)fold->count;
     return cell_fold_at(fold, cell % width, cell / width % height, cell / width / height);
 }
+
+/* A coarse level for a solver whose iterations move short waves only: trilinear functions on cells of
+   several cells of the grid, with a value per node. A correction adds to a value per particle the smooth
+   function v with the least
+     sum weight |h grad v|^2 + hold v^2 - 2 residual v
+   over the fluid particles, h the support radius. Thin fluid is left to iterations. The rules
+   are in shaders/sim/step/coarse_rule.h. */
+
+typedef struct CoarseShape {
+    int inner[3], wide, count[3]; /* along an axis: cells of the grid; cells in a coarse cell; coarse cells.
+                                     The last coarse cell may be wider */
+    int along[3];                 /* nodes along an axis: as many as cells across a periodic side */
+    size_t cells, nodes;          /* of the box */
+} CoarseShape;
+
+/* Coarse cells of two cells of the grid along each axis; wider in a box of more than `most` such cells. */
+CoarseShape coarse_shape(const Constants *constants, size_t most);
 
 /* Particles next to a cell of the grid, also across periodic sides. */
 

@@ -137,3 +137,28 @@ CellFold cell_fold(const Constants *s, size_t particles)
             return fold;
     return cell_fold_plain(&s->cells);
 }
+
+static CoarseShape shape_of(const Constants *constants, int wide)
+{
+    CoarseShape shape = {.wide = wide, .cells = 1, .nodes = 1};
+    for (int k = 0; k < 3; k++) {
+        const int inner = constants->cells.size[k] > 2 ? constants->cells.size[k] - 2 : 1,
+                  count = inner / wide > 1 ? inner / wide : 1;
+        shape.inner[k] = inner;
+        shape.count[k] = count;
+        shape.along[k] = count + (constants->periodic.axis[k] || k >= constants->dimensions ? 0 : 1);
+        shape.cells *= (size_t)count;
+        shape.nodes *= (size_t)shape.along[k];
+    }
+    return shape;
+}
+
+CoarseShape coarse_shape(const Constants *constants, size_t most)
+{
+    CoarseShape shape;
+    int wide = 1;
+    do
+        shape = shape_of(constants, wide *= 2);
+    while (shape.cells > most);
+    return shape;
+}

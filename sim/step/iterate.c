@@ -1,5 +1,7 @@
 #include "sim/step/substep.h"
 
+#include "shaders/sim/step/coarse_rule.h"
+
 #include <math.h>
 
 /* State of conjugate gradients. */
@@ -43,33 +45,24 @@ static bool goes_on(const Iteration *iteration, const IterationFound *found)
             (found->most > iteration->worst && found->iterations < iteration->few));
 }
 
-/* An iteration carries an error a support radius further: long waves need many iterations. After two
-   iterations a coarse correction is due if COARSE_WORTH more of the same effect would not reach the
-   tolerance. The next correction is due COARSE_EVERY iterations later at the earliest. */
-enum { COARSE_WORTH = 5, COARSE_EVERY = 4 };
-
-/* Mean residuals of an iteration and the two before, and iterations until the next correction. */
+/* Mean residuals of an iteration and the two before. */
 typedef struct Progress {
     double mean[3];
-    int wait;
 } Progress;
 
-static bool is_slow(const Iteration *iteration, double mean, Progress *progress)
+/* Same rule as decide_coarse of decide.comp. The test is squared: without libm, whose last bit may differ
+   between the processors of ranks. */
+static bool is_slow(const Iteration *iteration, const IterationFound *found, Progress *progress)
 {
-    for (int k = 0; k < 2; k++)
-        progress->mean[k] = progress->mean[k + 1];
-    progress->mean[2] = mean;
-    if (!iteration->coarse || --progress->wait >= 0)
+    double *mean = progress->mean;
+    mean[0] = mean[1], mean[1] = mean[2], mean[2] = found->mean;
+    if (!iteration->coarse || (int)found->iterations % COARSE_EVERY != COARSE_AFTER)
         return false;
-    /* The test squared: without libm, whose last bit may differ between the processors of ranks. */
-    const double part2 = mean / progress->mean[0], tolerance = iteration->tolerance;
-    double left2 = mean * mean;
+    const double part2 = mean[2] / mean[0], tolerance = iteration->tolerance;
+    double left2 = mean[2] * mean[2];
     for (int k = 0; k < COARSE_WORTH; k++)
         left2 *= part2;
-    if (!(left2 > tolerance * tolerance))
-        return false;
-    progress->wait = COARSE_EVERY - 1;
-    return true;
+    return left2 > tolerance * tolerance;
 }
 
 static Excess excess_of(const Substep *step, const ColumnDef *column)
@@ -83,7 +76,7 @@ static void iterate_here(const Substep *step, const Iteration *iteration, double
     const double scale = scale_of(step, iteration);
     PassInput input = substep_input(step, dt);
     Conjugate now = {0};
-    Progress progress = {.wait = 2};
+    Progress progress = {0};
     *found = (IterationFound){.mean = INFINITY};
     if (iteration->begun)
         measure(step, iteration, scale, found);
@@ -91,7 +84,8 @@ static void iterate_here(const Substep *step, const Iteration *iteration, double
         conjugate(step, iteration, &now);
         input.go = (float)now.go;
         input.turn = (float)now.turn;
-        if (is_slow(iteration, found->mean, &progress))
+        input.corrected = is_slow(iteration, found, &progress);
+        if (input.corrected)
             step->backend->run(step->state, iteration->coarse, &input);
         for (int k = 0; iteration->passes[k]; k++)
             step->backend->run(step->state, iteration->passes[k], &input);

@@ -25,6 +25,7 @@ typedef struct Pass {
     bool acts_on_solids;        /* the pass exerts forces on solids: CpuPass.solid, and the shader with
                                    FORCES_ON_SOLIDS */
     bool mirrors;               /* during the pass, boundary particles stand for fluid */
+    bool corrects;              /* a coarse correction follows (sim/step/backend.h) */
     bool (*needed)(const struct Constants *constants); /* true if the pass runs; NULL: always */
 } Pass;
 
@@ -33,6 +34,8 @@ typedef struct PassInput {
     float dt;                               /* s */
     const struct ApparentGravity *apparent; /* NULL outside of a step */
     float gravity[3];                       /* added by the kick of the step, m/s2; 0 outside of a step */
+    bool corrected; /* of an iteration: a coarse correction, with the iteration's step of the values, came
+                       before */
     float go, turn; /* conjugate gradients: length along the direction; share of the last direction */
 } PassInput;
 

@@ -4,7 +4,6 @@
 
 #include "tests/gl/parity.h"
 
-#include "sim/methods/dfsph/dfsph.h"
 #include "sim/methods/pbf/pbf.h"
 #include "sim/methods/wcsph/wcsph.h"
 
@@ -67,7 +66,6 @@ static inline void parity_settings(const ParityCase *c, WorldDef *def)
     wcsph->viscosity_form = (int)c->form;
     if (c->tolerance > 0)
         pbf_def(def)->tolerance = c->tolerance;
-    dfsph_def(def)->coarse = false; /* cpu alone has it */
 }
 
 static inline WorldDef parity_def(const ParityTable *table, const ParityCase *c)

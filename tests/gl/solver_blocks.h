@@ -60,8 +60,8 @@
               WCSPH(wcsph_fluids[0].tait), WCSPH(wcsph_fluids[0].artificial_viscosity),                      \
               WCSPH(wcsph_fluids[7].artificial_viscosity)),                                                  \
         BLOCK("sim/dfsph/dfsph_block.h", DfsphBlock, DFSPH(gradient), DFSPH(boundary_fades),                 \
-              DFSPH(friction_gradient), DFSPH(relaxation), DFSPH(pressure_of_term), DFSPH(least_squares),    \
-              DFSPH(surface_lack), DFSPH(surface_slope)),                                                    \
+              DFSPH(lightest), DFSPH(coarse_slope), DFSPH(friction_gradient), DFSPH(relaxation),             \
+              DFSPH(pressure_of_term), DFSPH(least_squares), DFSPH(surface_lack), DFSPH(surface_slope)),     \
         BLOCK("sim/pbf/pbf_block.h", PbfBlock, PBF(gradient), PBF(friction_gradient), PBF(relaxation),       \
               PBF(least_squares), PBF(pressure_of_term), PBF(viscous_dt), PBF(settle_rate),                  \
               PBF(boundary_fades)),                                                                          \
@@ -89,8 +89,10 @@
         BLOCK("sim/flow_counts_block.h", FlowCounts, COUNTS(there), COUNTS(born), COUNTS(flowed[0])),        \
         BLOCK("sim/solve_block.h", SolveBlock, GROUPS_OF(pass_groups), GROUPS_OF(sum_groups),                \
               GROUPS_OF(decision_groups), GROUPS_OF(renewal_groups), GROUPS_OF(renewal_sum_groups),          \
-              GROUPS_OF(renewal_decision_groups), SOLVE(pass_groups_along), SOLVE(sum_groups_along),         \
-              SOLVE(renewal_groups_along), SOLVE(iterations), SOLVE(left_mean), SOLVE(left_most),            \
+              GROUPS_OF(renewal_decision_groups), GROUPS_OF(coarse_groups), GROUPS_OF(coarse_cell_groups),   \
+              GROUPS_OF(coarse_solve_groups), SOLVE(pass_groups_along), SOLVE(sum_groups_along),             \
+              SOLVE(renewal_groups_along), SOLVE(coarse_cell_groups_along), SOLVE(coarse),                   \
+              SOLVE(iterations), SOLVE(left_mean), SOLVE(left_most), SOLVE(left_before), SOLVE(left_second), \
               SOLVE(tolerance), SOLVE(worst), SOLVE(iterations_few), SOLVE(iterations_most), SOLVE(ended),   \
               SOLVE(particles), SOLVE(scaled), SOLVE(go), SOLVE(turn), SOLVE(power), SOLVE(way_most),        \
               SOLVE(rounds_most), SOLVE(rounds), SOLVE(round_iterations[0]))

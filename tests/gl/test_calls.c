@@ -66,7 +66,7 @@ static void a_step_makes_so_many_calls(void **state)
     dfsph_def(&def)->iterations = 100;
     dfsph_def(&def)->tolerance = dfsph_def(&def)->divergence_tolerance = 1e-6;
     def.reproducible = true; /* else iterations differ from run to run */
-    count_step("compute, dfsph, reproducible", &def, (Bounds){55, 0, 246, 9});
+    count_step("compute, dfsph, reproducible", &def, (Bounds){62, 0, 274, 9});
     def = pool_on("compute", "pbf");
     def.dt = 1.0 / 60;
     count_step("compute, pbf", &def, (Bounds){45, 0, 190, 6});
@@ -178,7 +178,6 @@ static void many_groups_sum_as_the_cpu(void **state)
     def.spacing = 0.025;
     def.dt = 0.002;
     def.most = 100000;
-    dfsph_def(&def)->coarse = false; /* cpu alone has it */
     add_emit(&def.fluids[0],
              (Emit){.centre = {0, 0.5, 0}, .direction = {0, -1, 0}, .radius = 0.05, .speed = 1, .start = 9});
     World *gpu = world_on(def, "compute"), *cpu = world_on(def, "cpu");

@@ -31,6 +31,25 @@ void conjugate(float next_power, float curvature)
     power = next_power;
 }
 
+// A coarse correction is due: is_slow of sim/step/iterate.c.
+bool is_slow()
+{
+    float part = left_mean / left_second, left = left_mean / tolerance;
+    for (int k = 0; k < COARSE_WORTH; k++)
+        left *= sqrt(part);
+    return coarse != 0u && iterations % COARSE_EVERY == COARSE_AFTER && left > 1.0;
+}
+
+void decide_coarse(bool goes_on)
+{
+    uint due = goes_on && is_slow() ? 1u : 0u;
+    coarse_groups.along = due * pass_groups_along;
+    coarse_cell_groups.along = due * coarse_cell_groups_along;
+    coarse_solve_groups.along = due;
+    left_second = left_before;
+    left_before = left_mean;
+}
+
 // 1 / (unit of the residual).
 float scale_of(float sum) { return scaled == 0u || sum == 0.0 ? 1.0 : float(particles_there()) / sum; }
 
@@ -55,6 +74,8 @@ void main()
     if (own > 0u)
         return;
     float scale = scale_of(scales[0]);
-    if (decide(scale * (sums[0].x / max(float(particles_there()), 1.0)), scale * sums[0].y))
+    bool goes_on = decide(scale * (sums[0].x / max(float(particles_there()), 1.0)), scale * sums[0].y);
+    decide_coarse(goes_on);
+    if (goes_on)
         conjugate(sums[0].z, sums[0].w);
 }

@@ -44,6 +44,8 @@ UNIFORM_BLOCK(DfsphBlock, METHOD_BLOCK)
     float surface_lack;      /* the outermost row of a half-filled lattice: 1 - n / n0, */
     float surface_slope;     /* and |sum F x_ij|, 1/m */
     float boundary_fades;    /* of the boundary part, 1/s */
+    float lightest;          /* least mass of a particle over U, kg/m3 */
+    float coarse_slope;      /* C / h: sim/methods/dfsph/dfsph_passes.c */
 }
 BLOCK_END(DfsphBlock);
 

@@ -57,6 +57,9 @@ void main()
     float residual = residual_of(own_move.w, lack);
     float k = next_term(place.w, residual, scratch[SCRATCH_factor + i], scratch[SCRATCH_change + i]);
     scratch[SCRATCH_miss + i] = miss_of(residual, place.w);
+#ifdef DIVERGENCE
+    scratch[SCRATCH_residual + i] = residual; // for coarse.comp
+#endif
     scratch[SCRATCH_change + i] = (scratch[SCRATCH_change + i] == 0.0 ? BEGINS : 1.0) * (k - place.w);
     near[i].w = k;
 }

@@ -12,11 +12,11 @@
 static void compute_destroy(void *state)
 {
     Compute *c = state;
-    const GLuint buffers[] = {c->cell,          c->rank,           c->order,     c->start,
-                              c->totals[0],     c->totals[1],      c->totals[2], c->pressure,
-                              c->acceleration,  c->constant_block, c->step,      c->terms,
-                              c->of_method,     c->drag,           c->scratch,   c->near,
-                              c->forces.buffer, c->forces.marked,  c->solve,     c->parts};
+    const GLuint buffers[] = {
+        c->cell,      c->rank,         c->order,        c->start,          c->totals[0],     c->totals[1],
+        c->totals[2], c->pressure,     c->acceleration, c->constant_block, c->step,          c->terms,
+        c->of_method, c->drag,         c->scratch,      c->near,           c->forces.buffer, c->forces.marked,
+        c->solve,     c->coarse_cells, c->coarse_nodes, c->parts};
     compute_particles_destroy(&c->now);
     compute_particles_destroy(&c->spare);
     compute_particles_destroy(&c->marked);

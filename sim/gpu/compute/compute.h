@@ -16,7 +16,7 @@ enum {
     COMPUTE_GAUGE_GROUPS = 64,
     COMPUTE_EXCESS_GROUPS_MOST = 512,
     COMPUTE_ALONG = 65535, /* work groups per row */
-    COMPUTE_NAMED = 22,
+    COMPUTE_NAMED = 25,
     COMPUTE_LISTS = 4,                        /* blocks of neighbour lists */
     COMPUTE_BUFFERS = METHOD_BUFFERS_MAX + 4, /* of the method, and a buffer per term */
     COMPUTE_DEFINES_MAX = 4096
@@ -67,6 +67,9 @@ typedef struct ComputeScratch {
     X(EXCESS, "compute/excess")                                                                              \
     X(DECIDE, "compute/decide")                                                                              \
     X(RENEW, "compute/renew")                                                                                \
+    X(COARSE_SUM, "compute/coarse_sum")                                                                      \
+    X(COARSE_SOLVE, "compute/coarse_solve")                                                                  \
+    X(COARSE_ADD, "compute/coarse_add")                                                                      \
     X(SHOW, "compute/show")                                                                                  \
     X(BOUNDARY_BIN, "compute/boundary_bin")                                                                  \
     X(BOUNDARY_PLACE, "compute/boundary_place")                                                              \
@@ -133,6 +136,7 @@ typedef struct ComputeBudget {
 typedef struct ComputeSolves {
     Mailbox found; /* of each solver SolveBlock, then parts of `left` */
     ComputeBudget budgets[SOLVES_MAX];
+    int asked;   /* iterations of the running solver, done or not */
     int guessed; /* solvers with a guessed end; the iterations, the number and the report of each */
     struct {
         Iteration of;
@@ -148,7 +152,8 @@ typedef struct ComputeSolves {
 typedef enum ComputeDecided {
     DECIDED_NONE,
     DECIDED_ITERATION, /* passes and decision of an iteration */
-    DECIDED_RENEWAL    /* new lists, and the first decision of a round */
+    DECIDED_RENEWAL,   /* new lists, and the first decision of a round */
+    DECIDED_CORRECTION /* of long waves, by the coarse level */
 } ComputeDecided;
 
 typedef struct Compute {
@@ -177,6 +182,7 @@ typedef struct Compute {
     bool watch_here;                      /* arrived: sent before a copy waited for */
     float longest;                        /* longest dt of the kicks since the watch was read, s */
     unsigned solve, parts;                /* SolveBlock, ExcessPart per group; 0: no pass iterates */
+    unsigned coarse_cells, coarse_nodes;  /* of the coarse level: shaders/sim/coarse_block.h; 0: none */
     ComputeSolves solves;
     ComputeDecided decided;
     Mailbox gauge;  /* GaugePart per group; none before the first `gauge` */
@@ -268,6 +274,15 @@ void compute_flow_take(Compute *compute, const void *counts, size_t *flowed);
 
 /* Creates missing buffers of iterating solvers. Returns false if memory is short. */
 bool compute_iterate_fit(Compute *compute);
+
+/* The coarse level of a solver. _corrects: true if a pass of the scene needs the level. _defines: lines for
+   the shaders. _fit: creates missing buffers; false if memory is short. compute_correct: a correction, after
+   `pass` (Pass.corrects), if decide.comp found one due. */
+bool compute_corrects(const Constants *constants);
+CoarseShape compute_coarse_shape(const Constants *constants);
+void compute_coarse_defines(const Constants *constants, char out[COMPUTE_DEFINES_MAX]);
+bool compute_coarse_fit(Compute *compute);
+void compute_correct(Compute *compute, const Pass *pass, const PassInput *input);
 
 /* Neighbour lists if the driver supports them; lines for the shaders. */
 void compute_lists_create(Compute *compute);

@@ -191,6 +191,10 @@ static GLintptr decided_at(const Compute *c, ComputePass pass)
                                  : offsetof(SolveBlock, decision_groups));
     if (renews)
         return offsetof(SolveBlock, renewal_groups);
+    if (c->decided == DECIDED_CORRECTION)
+        return (GLintptr)(pass == COMPUTE_COARSE_SUM     ? offsetof(SolveBlock, coarse_cell_groups)
+                          : pass == COMPUTE_COARSE_SOLVE ? offsetof(SolveBlock, coarse_solve_groups)
+                                                         : offsetof(SolveBlock, coarse_groups));
     return pass >= COMPUTE_METHOD ? (GLintptr)offsetof(SolveBlock, pass_groups) : -1;
 }
 
@@ -290,6 +294,9 @@ static const struct {
     {"WatchBlock", offsetof(Compute, watch.buffer)},
     {"ForceParts", offsetof(Compute, forces.buffer)},
     {"SolveBlock", offsetof(Compute, solve)},
+    {"CoarseTerms", offsetof(Compute, spare.position)}, /* free until the next sort */
+    {"CoarseCells", offsetof(Compute, coarse_cells)},
+    {"CoarseNodes", offsetof(Compute, coarse_nodes)},
     {"Rests", offsetof(Compute, boundary.rest)},
     {"BoundaryPositions", offsetof(Compute, boundary.position)},
     {"BoundaryVelocities", offsetof(Compute, boundary.velocity)},

@@ -103,6 +103,7 @@ void compute_all_defines(const Compute *c, char out[COMPUTE_DEFINES_MAX])
     compute_defines(c->constants, out);
     compute_own_defines(c, out);
     compute_list_defines(c, out);
+    compute_coarse_defines(c->constants, out);
 }
 
 bool compute_programs(Compute *c, bool (*which)(ComputePass pass), Error *error)

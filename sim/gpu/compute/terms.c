@@ -74,6 +74,33 @@ void compute_defines(const Constants *s, char out[COMPUTE_DEFINES_MAX])
                  s->method->energy_shader);
 }
 
+CoarseShape compute_coarse_shape(const Constants *s)
+{
+    enum { CELLS_MOST = 1 << 16 }; /* fewer than on the CPU: a single work group solves for the nodes */
+    return coarse_shape(s, CELLS_MOST);
+}
+
+bool compute_corrects(const Constants *s)
+{
+    for (const Pass *const *pass = s->method->passes; *pass; pass++)
+        if ((*pass)->corrects && (!(*pass)->needed || (*pass)->needed(s)))
+            return true;
+    return false;
+}
+
+void compute_coarse_defines(const Constants *s, char out[COMPUTE_DEFINES_MAX])
+{
+    const CoarseShape shape = compute_coarse_shape(s);
+    const size_t used = strlen(out);
+    const int *inner = shape.inner, *count = shape.count, *along = shape.along;
+    if (compute_corrects(s))
+        snprintf(out + used, COMPUTE_DEFINES_MAX - used,
+                 "#define COARSE_INNER ivec3(%d, %d, %d)\n#define COARSE_COUNT ivec3(%d, %d, %d)\n"
+                 "#define COARSE_ALONG ivec3(%d, %d, %d)\n#define COARSE_WIDE %d\n",
+                 inner[0], inner[1], inner[2], count[0], count[1], count[2], along[0], along[1], along[2],
+                 shape.wide);
+}
+
 bool compute_pass_named(const Constants *s, ComputePass pass)
 {
     switch (pass) {
@@ -88,6 +115,10 @@ bool compute_pass_named(const Constants *s, ComputePass pass)
     case COMPUTE_DECIDE:
     case COMPUTE_RENEW:
         return compute_iterates(s);
+    case COMPUTE_COARSE_SUM:
+    case COMPUTE_COARSE_SOLVE:
+    case COMPUTE_COARSE_ADD:
+        return compute_corrects(s);
     case COMPUTE_GUIDE:
     case COMPUTE_EMIT_MARK:
     case COMPUTE_EMIT_ADD:

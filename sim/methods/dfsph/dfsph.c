@@ -16,7 +16,7 @@ static const Key keys[] = {
     NUMBER("solver.divergence_tolerance", 0, "", 0, 1, offsetof(DfsphDef, divergence_tolerance), "mean compression that a step's velocities may make"),
     INTEGER("solver.iterations", 0, 1, 10000, offsetof(DfsphDef, iterations), "of each solver, at most"),
     BOOLEAN("solver.coarse", 0, offsetof(DfsphDef, coarse),
-            "a coarse grid corrects the pressure where iterations are slow, as in deep water; not beside solids; backend cpu"),
+            "a coarse grid corrects the pressure where iterations are slow, as in deep water; not beside solids"),
     NUMBER("solver.surface_lack", 0, "", 0, 1, offsetof(DfsphDef, surface_lack),
            "part of the neighbours missing at a free surface that the solvers add: 1, else a dense skin slows waves; 0: none", .off = "0"),
     NUMBER("solver.rest_viscosity", 0, "", 0, 1, offsetof(DfsphDef, rest_viscosity),
@@ -28,6 +28,14 @@ static const Key keys[] = {
 /* Factor on Jacobi's step of the lattice: with momentum 0.6 stable for eigenvalues up to three fifths above
    the lattice's. */
 static const float REACH = 1.1F;
+
+static float lightest(const Constants *constants)
+{
+    float mass = constants->mass[0];
+    for (int f = 1; f < constants->fluid_count; f++)
+        mass = fminf(mass, constants->mass[f]);
+    return mass;
+}
 
 static void dfsph_set(Constants *constants, const WorldDef *def)
 {
@@ -42,7 +50,10 @@ static void dfsph_set(Constants *constants, const WorldDef *def)
                  .least_squares = factors.least_squares,
                  .surface_lack = (float)said->surface_lack * factors.surface_lack,
                  .surface_slope = factors.surface_slope,
-                 .boundary_fades = (float)incompressible_boundary_fades(def)},
+                 .boundary_fades = (float)incompressible_boundary_fades(def),
+                 .lightest = lightest(constants),
+                 .coarse_slope =
+                     factors.pressure_of_term / (constants->rest_number_density * constants->support_radius)},
         .most = said->iterations,
         .coarse = said->coarse,
         .tolerance = said->tolerance,
@@ -71,27 +82,21 @@ static const double CALM = 0.2;
    rests, in fewer iterations: fluid at rest needs no iteration. */
 static const double STILL = 1e-5;
 
-/* Beside a solid the level leaves pressures that move a floating solid wrong (docs/labbook/methods.md). */
-static bool has_coarse(const Substep *step)
-{
-    return dfsph_solvers(step->constants)->coarse && step->constants->solid_count == 0;
-}
-
 /* Solve to `tolerance`; a mean above STEP_SOLVE_STANDS times `allowed` is trouble. */
 static void solve(const Substep *step, int which, const Pass *const passes[4], double tolerance,
                   double allowed)
 {
     const DfsphConstants *own = dfsph_solvers(step->constants);
-    const Iteration iteration = {.passes = {passes[1], passes[2]},
-                                 .coarse =
-                                     which == SOLVE_DIVERGENCE && has_coarse(step) ? &dfsph_coarse : NULL,
-                                 .residual = dfsph_miss,
-                                 .tolerance = tolerance,
-                                 .worst = fmax(WORST * tolerance, WORTH[which]),
-                                 .few = FEW,
-                                 .most = own->most,
-                                 .begun = true,
-                                 .allowed = allowed};
+    const Iteration iteration = {
+        .passes = {passes[1], passes[2]},
+        .coarse = which == SOLVE_DIVERGENCE && dfsph_has_coarse(step->constants) ? &dfsph_coarse : NULL,
+        .residual = dfsph_miss,
+        .tolerance = tolerance,
+        .worst = fmax(WORST * tolerance, WORTH[which]),
+        .few = FEW,
+        .most = own->most,
+        .begun = true,
+        .allowed = allowed};
     substep_run(step, passes[0], step->dt);
     if (which == SOLVE_DIVERGENCE) /* the solver begins with multipliers */
         substep_run(step, passes[1], step->dt);
@@ -175,19 +180,13 @@ static StepFriction dfsph_step_friction(const WorldDef *def, const Lattice *latt
     return friction;
 }
 
-static const Pass *const passes[] = {&dfsph_state,
-                                     &dfsph_divergence_begin,
-                                     &dfsph_divergence_push,
-                                     &dfsph_divergence_rate,
-                                     &dfsph_divergence_end,
-                                     &dfsph_others,
-                                     &dfsph_pressed,
-                                     &dfsph_unpressed,
-                                     &dfsph_density_begin,
-                                     &dfsph_density_push,
-                                     &dfsph_density_rate,
-                                     &dfsph_density_end,
-                                     NULL};
+static const Pass *const passes[] = {&dfsph_state,           &dfsph_divergence_begin,
+                                     &dfsph_divergence_push, &dfsph_divergence_rate,
+                                     &dfsph_coarse,          &dfsph_divergence_end,
+                                     &dfsph_others,          &dfsph_pressed,
+                                     &dfsph_unpressed,       &dfsph_density_begin,
+                                     &dfsph_density_push,    &dfsph_density_rate,
+                                     &dfsph_density_end,     NULL};
 
 static double pressure_of_multiplier(const Constants *constants)
 {

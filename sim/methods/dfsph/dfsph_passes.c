@@ -350,9 +350,9 @@ static void density_end(const CpuRange *range)
 
 /* --- solvers: an iteration --- */
 
-/* k by Jacobi's step plus a part of the last change, then {x, k}. The first change of a k counts by the
-   factor `begins`. */
-static void pack_place(const CpuRange *range, float went_on, float begins)
+/* k by Jacobi's step plus a part of the last change. The first change of a k counts by the factor `begins`.
+ */
+static void step_terms(const CpuRange *range, float went_on, float begins)
 {
     const Constants *s = range->cpu->constants;
     const CpuParticles *p = &range->cpu->now;
@@ -362,13 +362,23 @@ static void pack_place(const CpuRange *range, float went_on, float begins)
     const bool pulls = s->negative_pressure;
     const float momentum = dt > 0 ? went_on : 0;
     for (size_t i = range->begin; i < range->end; i++) {
-        if (of_fluid(range->cpu, i)) {
-            const float before = p->pressure_term[i];
-            const float k =
-                before + scale * p->own[RESIDUAL][i] * p->own[FACTOR][i] + momentum * p->own[CHANGE][i];
-            p->pressure_term[i] = k > 0 || pulls ? k : 0;
-            p->own[CHANGE][i] = (p->own[CHANGE][i] == 0 ? begins : 1) * (p->pressure_term[i] - before);
-        }
+        if (!of_fluid(range->cpu, i))
+            continue;
+        const float before = p->pressure_term[i];
+        const float k =
+            before + scale * p->own[RESIDUAL][i] * p->own[FACTOR][i] + momentum * p->own[CHANGE][i];
+        p->pressure_term[i] = k > 0 || pulls ? k : 0;
+        p->own[CHANGE][i] = (p->own[CHANGE][i] == 0 ? begins : 1) * (p->pressure_term[i] - before);
+    }
+}
+
+/* {x, k} after the step of k; a coarse correction has taken the step already. */
+static void pack_place(const CpuRange *range, float went_on, float begins)
+{
+    const CpuParticles *p = &range->cpu->now;
+    if (!range->input->corrected)
+        step_terms(range, went_on, begins);
+    for (size_t i = range->begin; i < range->end; i++) {
         const float k = of_fluid(range->cpu, i) ? p->pressure_term[i] : 0; /* particles of solids have none */
         memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], k}, 16);
     }
@@ -479,6 +489,13 @@ static void divergence_rate(const CpuRange *range)
    mass. The product of the parts is left out: the sum is too small by a factor of two at most, and a surface
    across a coarse cell leaves no v free of force. */
 
+/* The iteration's own step of k comes first: it holds a support radius more than k before, of a start from 0
+ * too. */
+static void coarse_step(const CpuRange *range)
+{
+    step_terms(range, DIVERGENCE_MOMENTUM, DIVERGENCE_BEGINS);
+}
+
 static float held(const Cpu *cpu, size_t i)
 {
     return of_fluid(cpu, i) && (cpu->constants->negative_pressure || cpu->now.pressure_term[i] > 0);
@@ -491,19 +508,10 @@ static void pack_held(const CpuRange *range)
         memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], held(range->cpu, i)}, 16);
 }
 
-static float lightest(const Constants *constants)
+/* Beside a solid the level leaves pressures that move a floating solid wrong (docs/labbook/methods.md). */
+bool dfsph_has_coarse(const Constants *constants)
 {
-    float mass = constants->mass[0];
-    for (int f = 1; f < constants->fluid_count; f++)
-        mass = fminf(mass, constants->mass[f]);
-    return mass;
-}
-
-/* C / h, N. */
-static float coarse_slope(const Constants *constants)
-{
-    return dfsph_constants(constants)->pressure_of_term /
-           (constants->rest_number_density * constants->support_radius);
+    return dfsph_solvers(constants)->coarse && constants->solid_count == 0;
 }
 
 /* Places of what cpu_coarse_correct reads, in the accelerations. */
@@ -514,7 +522,7 @@ static void coarse_body(const CpuRange *range)
     const Cpu *cpu = range->cpu;
     const CpuParticles *p = &cpu->now;
     const DfsphBlock *block = dfsph_constants(cpu->constants);
-    const float mass = lightest(cpu->constants), unit = 1 / coarse_slope(cpu->constants),
+    const float mass = block->lightest, unit = 1 / block->coarse_slope,
                 over_lack = block->surface_lack > 0 ? 1 / block->surface_lack : 0;
     if (cpu->thin)
         return;
@@ -534,27 +542,27 @@ static void coarse_body(const CpuRange *range)
     }
 }
 
-/* A hundredth of the residual of v may be left: the iterations go on. */
 static void coarse_end(Cpu *cpu, const PassInput *input)
 {
     if (cpu->thin)
         return;
     const Constants *s = cpu->constants;
     float *const a[3] = {cpu->now.ax, cpu->now.ay, cpu->now.az};
-    const float slope = coarse_slope(s), dt2 = input->dt * input->dt;
+    const float slope = dfsph_constants(s)->coarse_slope, dt2 = input->dt * input->dt;
     const CoarseTerms terms = {
         .weight = a[COARSE_WEIGHT],
         .hold = a[COARSE_HOLD],
         .residual = a[COARSE_RESIDUAL],
         .value = cpu->now.pressure_term,
-        .scale = dt2 > 0 ? s->rest_number_density * lightest(s) / (dt2 * slope * slope) : 0,
+        .scale = dt2 > 0 ? s->rest_number_density * dfsph_constants(s)->lightest / (dt2 * slope * slope) : 0,
         .negative = s->negative_pressure,
-        .left = 0.01,
+        .left = (double)COARSE_LEFT,
     };
     cpu_coarse_correct(cpu, &terms);
 }
 
-static const CpuPass coarse = {.loops = {{coarse_body, .walks = true, .pack = pack_held}}, .end = coarse_end};
+static const CpuPass coarse = {.loops = {{coarse_step}, {coarse_body, .walks = true, .pack = pack_held}},
+                               .end = coarse_end};
 
 /* The motion of solids' particles stays through all iterations. */
 static const CpuPass begins[] = {
@@ -612,8 +620,11 @@ const Pass dfsph_coarse = {
     .name = "coarse",
     .stage = STAGE_SOLVE,
     .cpu = &coarse,
-    .reads = "position id fluid pressure_term residual lack inverse_mass",
-    .writes = "pressure_term acceleration",
+    .shader = "dfsph/coarse",
+    .corrects = true,
+    .needed = dfsph_has_coarse,
+    .reads = "position id fluid pressure_term residual lack factor inverse_mass change",
+    .writes = "pressure_term acceleration change",
 };
 const Pass dfsph_divergence_end = {
     .name = "divergence end",
@@ -648,7 +659,7 @@ const ColumnDef dfsph_columns[] = {
     {"squares", "m/kg", OWN(SQUARES), 1, COLUMN_FLOAT},
     {"lack", "", OWN(LACK), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"inverse_mass", "m3/kg", OWN(INVERSE_MASS), 1, COLUMN_FLOAT},
-    {"residual", "", OWN(RESIDUAL), 1, COLUMN_FLOAT},
+    {"residual", "", OWN(RESIDUAL), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"miss", "", OWN(MISS), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"change", "Pa", OWN(CHANGE), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"other", "m/s2", OWN(OTHER), 3, COLUMN_FLOAT},

@@ -80,8 +80,9 @@ extern const Pass dfsph_pressed, dfsph_unpressed;
 /* First k and residual of a solver; at the end, the values to keep. */
 extern const Pass dfsph_divergence_begin, dfsph_density_begin, dfsph_divergence_end, dfsph_density_end;
 
-/* Adds to k what a coarse level finds for the residual. Overwrites the accelerations. Backend cpu. */
+/* Adds to k what a coarse level finds for the residual. On the CPU, overwrites the accelerations. */
 extern const Pass dfsph_coarse;
+bool dfsph_has_coarse(const Constants *constants);
 
 /* An iteration: k by the residual before, accelerations by k; then the residual by accelerations. */
 extern const Pass dfsph_divergence_push, dfsph_divergence_rate, dfsph_density_push, dfsph_density_rate;
