@@ -46,7 +46,7 @@ SIMD_INLINE float block_reach2(const PairArgs *args)
    entries. */
 typedef struct FoundNeighbours {
     uint32_t first[LANES], count[LANES], used;
-    bool coincident;
+    bool coincident, solid;
 } FoundNeighbours;
 
 /* The list under construction. */

@@ -48,6 +48,7 @@ SIMD_INLINE LaneVector place_of(const PairArgs *args, size_t i)
 typedef struct NeighbourRange {
     const uint32_t *first, *end;
     bool coincident; /* some particle of the group nearly coincides with a neighbour */
+    bool solid;      /* some particle of the group may have a boundary particle as neighbour */
 } NeighbourRange;
 
 SIMD_INLINE NeighbourRange neighbour_range_of(const PairArgs *args, size_t i)
@@ -55,8 +56,8 @@ SIMD_INLINE NeighbourRange neighbour_range_of(const PairArgs *args, size_t i)
     const NeighbourLists *lists = args->lists;
     const uint32_t *first = lists->of_range[i / LISTS_GRAIN].index + lists->first[i / LANES],
                    rows = lists->rows[i / LANES];
-    return (NeighbourRange){first, first + LANES * (rows & ~(uint32_t)LISTS_COINCIDENT),
-                            (rows & LISTS_COINCIDENT) != 0};
+    return (NeighbourRange){first, first + LANES * (rows & ~(uint32_t)LISTS_FLAGS),
+                            (rows & LISTS_COINCIDENT) != 0, (rows & LISTS_SOLID) != 0};
 }
 
 /* NEIGHBOURS (near, j) { const Separation d = separation(args, at, j); ... }: for the next neighbour of
@@ -267,7 +268,7 @@ SIMD_INLINE SelfLanes themselves(const PairArgs *args, size_t i)
 
 SIMD_INLINE NeighbourRange neighbours_of_own_lanes(const SelfLanes *own)
 {
-    return (NeighbourRange){own->j, own->j + LANES, false};
+    return (NeighbourRange){own->j, own->j + LANES, false, false};
 }
 
 /* The kernels named by solver.kernel, in pair loops. For files compiled for each instruction set. */
@@ -324,7 +325,8 @@ SIMD_INLINE const uint32_t *first_image(const PairArgs *args, size_t i)
 SIMD_INLINE const uint32_t *next_image(const uint32_t *from, ImageParticle *image, NeighbourRange *near)
 {
     memcpy(image, from + IMAGE_HEAD, sizeof *image);
-    *near = (NeighbourRange){from + IMAGE_ENTRIES, from + IMAGE_ENTRIES + (size_t)LANES * from[0], false};
+    *near =
+        (NeighbourRange){from + IMAGE_ENTRIES, from + IMAGE_ENTRIES + (size_t)LANES * from[0], false, false};
     return from[1] ? near->end : NULL;
 }
 

@@ -19,8 +19,11 @@
 #include <stdint.h>
 
 enum {
-    LISTS_GRAIN = 512,         /* particles per range */
-    LISTS_COINCIDENT = 1 << 30 /* in `rows`: some particle of the group nearly coincides with a neighbour */
+    LISTS_GRAIN = 512,          /* particles per range */
+    LISTS_COINCIDENT = 1 << 30, /* in `rows`: some particle of the group nearly coincides with a neighbour */
+    LISTS_SOLID =
+        1 << 29, /* in `rows`: some particle of the group may have a boundary particle as neighbour */
+    LISTS_FLAGS = LISTS_COINCIDENT | LISTS_SOLID,
 };
 
 typedef struct ListMemory {
@@ -44,7 +47,7 @@ typedef struct NeighbourLists {
     ListMemory *found; /* per range: the lists of a group, before interleaving */
     size_t ranges;
     uint32_t *first;       /* per group: begin of its lists in the range's memory */
-    uint32_t *rows;        /* per group: length of the longest list, plus LISTS_COINCIDENT */
+    uint32_t *rows;        /* per group: length of the longest list, plus LISTS_FLAGS */
     ListMemory *of_images; /* per range: wall images and their neighbours, see sim/cpu/pair_loop.h */
     uint32_t *images;      /* per group: 1 + begin of its images; 0: no images */
     bool ready;            /* lists match the last grid */

@@ -150,7 +150,8 @@ static void list_group(const PairArgs *args, size_t i, const FoundNeighbours *fo
         return;
     interleave(lists->found[i / LISTS_GRAIN].index, found, rows, list_entry(args->none),
                memory->index + *used);
-    lists->rows[i / LANES] = rows | (found->coincident ? LISTS_COINCIDENT : 0);
+    lists->rows[i / LANES] =
+        rows | (found->coincident ? LISTS_COINCIDENT : 0) | (found->solid ? LISTS_SOLID : 0);
     *used += rows * LANES;
 }
 
@@ -165,6 +166,16 @@ static bool has_no_lists(const PairArgs *args, uint32_t cell)
     return cell == args->constants->cells.count || (args->foreign && args->foreign[cell]);
 }
 
+/* True if a boundary particle is in the rows; across periodic sides not looked for. */
+static bool rows_have_solids(const PairArgs *args, const CellRowRanges *rows)
+{
+    bool found = args->copy_start != NULL;
+    for (int row = 0; row < rows->count && !found; row++)
+        for (uint32_t j = rows->begin[row]; j < rows->end[row] && !found; j++)
+            found = args->fluid[j] >= FLUIDS_MAX;
+    return found;
+}
+
 /* Lists the particles [begin, end), a cell or part of a cell. Boundary particles and ghosts have no lists. */
 static void list_cell(const PairArgs *args, size_t begin, size_t end, bool last, ListBuild *making)
 {
@@ -174,8 +185,10 @@ static void list_cell(const PairArgs *args, size_t begin, size_t end, bool last,
     CandidateBlock block;
     if (!aside)
         rows_of(args, cell, &rows);
+    const bool solid = args->constants->solid_count > 0 && rows_have_solids(args, &rows);
     const bool fits = block_make(args, &rows, begin, end, &block);
     for (size_t i = begin; i < end; i++) {
+        making->found.solid |= solid;
         if (!aside && args->fluid[i] < FLUIDS_MAX)
             list_one(args, i, &rows, fits ? &block : NULL, (size_t)block.own + i - begin, &making->found);
         if ((last && i + 1 == end) || (i + 1) % LANES == 0) {

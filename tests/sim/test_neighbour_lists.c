@@ -78,7 +78,7 @@ static bool check_list(const Cpu *cpu, size_t i, const char *name)
     const double h = (double)cpu->constants->support_radius;
     const NeighbourLists *lists = &cpu->lists;
     const uint32_t *list = lists->of_range[i / LISTS_GRAIN].index + lists->first[i / LANES] + i % LANES;
-    const uint32_t rows = lists->rows[i / LANES] & ~(uint32_t)LISTS_COINCIDENT;
+    const uint32_t rows = lists->rows[i / LANES] & ~(uint32_t)LISTS_FLAGS;
     uint32_t k = 0;
     bool twin = false;
     memset(listed, 0, sizeof listed);
@@ -133,6 +133,35 @@ static void in_every_instruction_set(void **state)
     (void)state;
     fixture_needs_cpu("the lists are its own");
     check_all("baseline");
+}
+
+/* Groups beside solids are marked, and of the others no particle has a boundary particle within h. */
+static void groups_beside_solids_are_marked(void **state)
+{
+    (void)state;
+    fixture_needs_cpu("the lists are its own");
+    WorldDef def = fixture_def(2.4, 0.9, 0.6);
+    strcpy(def.method, "pbf");
+    def.solids[def.solid_count++] =
+        (SolidDef){.kind = SOLID_SPHERE, .centre = {-0.8, 0.4, 0}, .radius = 0.2, .axis = {0, 1, 0}};
+    fixture_block(&def, 0, -1.2, 0, -0.3, 1.2, 0.6, 0.3);
+    World *world = fixture_world(&def);
+    fixture_step(world, 1);
+    const Cpu *cpu = world->state;
+    const CpuParticles *p = &cpu->now;
+    size_t marked = 0, others = 0;
+    for (size_t g = 0; g * LANES < cpu->count; g++) {
+        const bool solid = cpu->lists.rows[g] & LISTS_SOLID;
+        for (size_t i = g * LANES; i < (g + 1) * LANES && i < cpu->count && !solid; i++)
+            for (size_t j = 0; j < cpu->count && p->fluid[i] < FLUIDS_MAX; j++)
+                assert_false(p->fluid[j] >= FLUIDS_MAX &&
+                             relation(cpu, i, j, 0.8 * (double)cpu->constants->support_radius) == 1);
+        marked += solid;
+        others += !solid;
+    }
+    printf("%zu groups beside the solid, %zu others\n", marked, others);
+    assert_true(marked > 0 && others > marked);
+    world_destroy(world);
 }
 
 /* Lists are filled up with the index behind the last particle, where one that came and went may have left
@@ -201,6 +230,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lists_are_those_of_brute_force),
         cmocka_unit_test(in_every_instruction_set),
+        cmocka_unit_test(groups_beside_solids_are_marked),
         cmocka_unit_test(what_is_left_behind_the_last_counts_for_nothing),
         cmocka_unit_test(memory_that_is_short_is_trouble),
     };

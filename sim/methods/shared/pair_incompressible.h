@@ -211,8 +211,12 @@ typedef struct SolidSums {
 SIMD_INLINE void add_boundary(const PairArgs *args, const uint32_t *j, const Separation *d,
                               const LaneVector *sign, f8 gradient, const bool flows, SolidSums *sum)
 {
-    const f8 zero = f8_splat(0), q = f8_sqrt(d->r2) * f8_splat(1 / args->constants->support_radius);
-    const f8 f = f8_masked(d->term == zero, gradient * shape(q, INCOMPRESSIBLE_KERNEL));
+    const float h = args->constants->support_radius;
+    const i8 solid = (d->term == f8_splat(0)) & (d->r2 < f8_splat(h * h));
+    if (i8_bits(solid) == 0)
+        return;
+    const f8 q = f8_sqrt(d->r2) * f8_splat(1 / h);
+    const f8 f = f8_masked(solid, gradient * shape(q, INCOMPRESSIBLE_KERNEL));
     const f8 x = sign->x * d->x, y = sign->y * d->y, z = sign->z * d->z, fx = f * x, fy = f * y, fz = f * z;
     sum->x += fx, sum->y += fy, sum->z += fz;
     sum->xx += fx * x, sum->yy += fy * y, sum->zz += fz * z;
@@ -239,6 +243,15 @@ SIMD_INLINE void add_boundary_images(const PairArgs *args, const WallsFar *far, 
     }
 }
 
+/* What solid_sums finds away from solids. */
+SIMD_INLINE void solid_zeros(size_t i, size_t begin, size_t end, float *const *columns, float *flow)
+{
+    for (int k = SOLID_SLOPE; k <= SOLID_LIFT; k++)
+        lanes_store(columns[k], i, begin, end, f8_splat(0));
+    if (flow)
+        lanes_store(flow, i, begin, end, f8_splat(0));
+}
+
 /* The sums of SolidColumn into `columns`, and sum F v . x into `flow`, unless NULL. `share`: k over p. */
 SIMD_INLINE void solid_sums(const PairArgs *args, size_t begin, size_t end, float gradient, float share,
                             float *const *columns, float *flow)
@@ -252,6 +265,10 @@ SIMD_INLINE void solid_sums(const PairArgs *args, size_t begin, size_t end, floa
     GROUPS (i, begin, end) {
         const LaneVector at = place_of(args, i);
         const NeighbourRange near = neighbour_range_of(args, i);
+        if (!near.solid) {
+            solid_zeros(i, begin, end, columns, flow);
+            continue;
+        }
         SolidSums sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
         NEIGHBOURS (near, j) {
             Separation d = separation(args, at, j);

@@ -74,7 +74,7 @@ static size_t join(ParticleId *label, size_t a, size_t b)
 static void join_listed(const Cpu *cpu, ParticleId *label, size_t i, size_t most)
 {
     const NeighbourLists *lists = &cpu->lists;
-    const size_t rows = lists->rows[i / LANES] & ~(uint32_t)LISTS_COINCIDENT;
+    const size_t rows = lists->rows[i / LANES] & ~(uint32_t)LISTS_FLAGS;
     const uint32_t none = list_entry(cpu->count + cpu->copies),
                    *list = lists->of_range[i / LISTS_GRAIN].index + lists->first[i / LANES] + i % LANES,
                    *end = list + LANES * (rows < most ? rows : most);
