@@ -119,10 +119,12 @@ typedef struct BenchTable {
     const char *view;         /* the only view, drawn for one backend; NULL: all views with all backends */
     bool backends;            /* with a view: run all backends */
     const char *sweep,
-        *values[8]; /* with a view: a setting and its values, ended by NULL, one row per value; or NULL */
+        *values[9]; /* with a view: a setting and its values, ended by NULL, one row per value; or NULL */
     bool percent;   /* the paper published shares, and frames per second as `rate` */
     bool shares;    /* true: the chart shows the first column's share; false: times */
     bool points;    /* points per second of the view pbsr; columns are unused */
+    bool ratios;    /* a further column: the total over that of the first of `substeps`; published alone, as
+                       `ratio` and `substeps` */
     BenchTableColumn columns[BENCH_TABLE_COLUMNS]; /* ended by a NULL title */
 } BenchTable;
 

@@ -39,6 +39,8 @@ static const BenchTable tables[] = {
      .settings = {"solver.step.dt=0.01"},
      .particles = {"8192"},
      .substeps = {"1", "10"},
+     .reference = "scenes/reference/paper003-substeps.csv",
+     .ratios = true,
      .columns = {{"simulation", SIM}, {"rendering", 0}}},
     {.name = "paper002-passes",
      .help =
@@ -216,7 +218,30 @@ static void print_rate(double rate, size_t particles, FILE *file)
     fprintf(file, " %9.1f %9.2f", rate, 1e-6 * rate * (double)particles);
 }
 
-static void print_result(const BenchTable *table, const BenchResult *r, FILE *file)
+static double total_of(const BenchTable *table, const BenchResult *r)
+{
+    double sum = 0;
+    for (int c = 0; table->columns[c].title; c++)
+        sum += bench_table_value(table, r, c);
+    return sum;
+}
+
+/* Prints the total over that of the same view and backend with the first number of substeps. */
+static void print_ratio(const BenchTable *table, const BenchResult *results, const BenchResult *r, FILE *file)
+{
+    const int first = atoi(table->substeps[0]);
+    for (const BenchResult *one = results; one <= r; one++)
+        if (one->substeps == first && one->particles == r->particles && !*one->failure.message &&
+            strcmp(one->view, r->view) == 0 && strcmp(one->backend, r->backend) == 0) {
+            fprintf(file, " %9.2f", total_of(table, r) / total_of(table, one));
+            return;
+        }
+    fprintf(file, " %9s", "-");
+}
+
+/* `results`: all, up to `r` at least. */
+static void print_result(const BenchTable *table, const BenchResult *results, const BenchResult *r,
+                         FILE *file)
 {
     double values[BENCH_TABLE_COLUMNS];
     char text[OUTCOME_TEXT];
@@ -232,6 +257,8 @@ static void print_result(const BenchTable *table, const BenchResult *r, FILE *fi
     print_values(values, columns, true, file);
     if (table->percent)
         print_rate(r->render_ms > 0 ? 1e3 / r->render_ms : 0, r->particles, file);
+    if (table->ratios)
+        print_ratio(table, results, r, file);
     if (r->counts.counted)
         print_counts(table, r, file);
     fputc('\n', file);
@@ -256,6 +283,20 @@ static void print_published(const BenchTable *table, const Reference *reference,
         if (table->percent)
             print_rate(reference_number(reference, row, "rate"), particles, file);
         fputc('\n', file);
+    }
+}
+
+/* Prints the published ratios, of a picture by raycasting. */
+static void print_published_ratios(const BenchTable *table, const Reference *reference, FILE *file)
+{
+    for (int row = 0; row < reference->rows; row++) {
+        char label[64];
+        snprintf(label, sizeof label, "%s, published", reference_text(reference, row, "engine"));
+        fprintf(file, "%9s %8s  %-9s %-22s", reference_text(reference, row, "particles"),
+                reference_text(reference, row, "substeps"), "volume", label);
+        for (int c = 0; table->columns[c].title; c++)
+            fprintf(file, " %17s", "");
+        fprintf(file, " %9s %9s\n", "", reference_text(reference, row, "ratio"));
     }
 }
 
@@ -297,16 +338,22 @@ bool bench_table_print(const BenchTable *table, const BenchResult *results, size
             table->sweep ? strrchr(table->sweep, '.') + 1 : "backend");
     for (int c = 0; table->columns[c].title; c++)
         fprintf(file, " %17s", table->columns[c].title);
-    fprintf(file, " %9s%s%s\n", "total", table->percent ? "  frames/s  M part./s" : "",
+    fprintf(file, " %9s%s%s\n", "total",
+            table->percent  ? "  frames/s  M part./s"
+            : table->ratios ? "  of 1 step"
+                            : "",
             count > 0 && any->counts.counted ? "   coverage  fragments a covered pixel" : "");
     size_t last = 0;
     int group = 0;
+    if (table->ratios)
+        print_published_ratios(table, &reference, file);
     for (size_t i = 0; i < count; i++) {
-        if (table->reference && (!table->scene || results[i].particles != last) && table->particles[group] &&
+        if (table->reference && !table->ratios && (!table->scene || results[i].particles != last) &&
+            table->particles[group] &&
             strcmp(results[i].view, table->view ? table->view : view_at(0)->name) == 0)
             print_published(table, &reference, asked_for(table, group++), file);
         last = results[i].particles;
-        print_result(table, &results[i], file);
+        print_result(table, results, &results[i], file);
     }
     fputc('\n', file);
     return true;
@@ -328,9 +375,7 @@ static bool seen_before(const BenchResult *results, size_t at)
 
 static double share(const BenchTable *table, const BenchResult *r)
 {
-    double all = 0;
-    for (int c = 0; table->columns[c].title; c++)
-        all += bench_table_value(table, r, c);
+    const double all = total_of(table, r);
     return all > 0 ? 100 * bench_table_value(table, r, 0) / all : 0;
 }
 

@@ -101,6 +101,28 @@ static void a_row_for_each_value_of_a_setting(void **state)
     free(text);
 }
 
+/* Figure 6: a frame of ten substeps beside one of a single substep, of the same view and backend. */
+static void substeps_beside_what_the_paper_says(void **state)
+{
+    (void)state;
+    BenchResult results[] = {made_up(8192, "volume", "cpu"), made_up(8192, "volume", "compute"),
+                             made_up(8192, "volume", "cpu"), made_up(8192, "volume", "compute")};
+    for (int i = 2; i < 4; i++) {
+        results[i].substeps = 10;
+        results[i].stages[STAGE_FORCE].median_ms = i == 2 ? 41 : 19;
+    }
+    char *text = printed("paper003-substeps", results, 4);
+    assert_non_null(strstr(text, "roughly only doubles"));
+    expect(text, "8192       10  volume    GPU, published", "8192 10 volume GPU, published roughly 2");
+    expect(text, "1  volume    cpu", "8192 1 volume cpu 4.000 9.1 % 40.000 90.9 % 44.000 1.00");
+    expect(text, "10  volume    cpu", "8192 10 volume cpu 44.000 52.4 % 40.000 47.6 % 84.000 1.91");
+    expect(text, "10  volume    compute", "8192 10 volume compute 22.000 35.5 % 40.000 64.5 % 62.000 1.41");
+    free(text);
+    text = printed("paper003-substeps", results + 3, 1); /* alone: nothing to compare with */
+    expect(text, "compute", "8192 10 volume compute 22.000 35.5 % 40.000 64.5 % 62.000 -");
+    free(text);
+}
+
 static void cases_are_all_views_and_backends(void **state)
 {
     (void)state;
@@ -136,6 +158,7 @@ int main(void)
         cmocka_unit_test(times_of_raycasting),
         cmocka_unit_test(shares_of_passes),
         cmocka_unit_test(times_of_parts),
+        cmocka_unit_test(substeps_beside_what_the_paper_says),
         cmocka_unit_test(cases_are_all_views_and_backends),
     };
     return cmocka_run_group_tests_name("app.bench_table", tests, setup, NULL);
