@@ -76,13 +76,14 @@ static const BenchTable tables[] = {
                  {"rendering", 0}}},
     {.name = "paper003-voxelize",
      .help =
-         "the ways to the volume side by side; `direct` lists the particles and sums where the slice is drawn",
+         "the ways to the volume side by side: `geometry` is the SIBGRAPI paper's, `iwasaki` what that paper is "
+         "compared with; `direct` lists the particles and sums where the slice is drawn",
      .scene = "scenes/dam_break.yaml",
      .settings = {"view.volume.show=slice"},
      .particles = {"1024", "8192"},
      .view = "volume",
      .sweep = "view.volume.method",
-     .values = {"geometry", "layers", "planes", "scatter", "gather", "slabs", "direct"},
+     .values = {"geometry", "layers", "planes", "iwasaki", "scatter", "gather", "slabs", "direct"},
      .columns = {{"voxelize", BIT(STAGE_VOXELIZE)}, {"slice", BIT(STAGE_SHADE)}}},
 };
 

@@ -138,7 +138,7 @@ static void cases_are_all_views_and_backends(void **state)
     assert_string_equal(scenes[1], "scenes/papers/goop_on_bust.yaml");
     assert_true(sweeps[0].count == 1 && strcmp(sweeps[0].values[0], "splat") == 0);
     assert_int_equal(bench_table_sweeps(bench_table_find("paper003-voxelize", &error), sweeps), 3);
-    assert_true(strcmp(sweeps[2].key, "view.volume.method") == 0 && sweeps[2].count == 7);
+    assert_true(strcmp(sweeps[2].key, "view.volume.method") == 0 && sweeps[2].count == 8);
     assert_int_equal(bench_table_sweeps(bench_table_find("paper003-raycast", &error), sweeps), 3);
     assert_true(sweeps[0].count == 1 && strcmp(sweeps[0].values[0], "volume") == 0 && sweeps[2].count == 3);
     assert_null(bench_table_find("paper9", &error));

@@ -4,8 +4,8 @@
 #include "render/views/volume/volume_private.h"
 
 /* Methods that make a texture. */
-static const VolumeMethod textured[] = {VOLUME_GEOMETRY, VOLUME_LAYERS, VOLUME_PLANES,
-                                        VOLUME_SCATTER,  VOLUME_GATHER, VOLUME_SLABS};
+static const VolumeMethod textured[] = {VOLUME_GEOMETRY, VOLUME_LAYERS, VOLUME_PLANES, VOLUME_SCATTER,
+                                        VOLUME_GATHER,   VOLUME_SLABS,  VOLUME_IWASAKI};
 enum { TEXTURED = sizeof textured / sizeof *textured };
 
 static void each_voxel_is_the_sum_over_all_particles(void **state)

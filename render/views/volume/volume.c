@@ -12,10 +12,11 @@
 #include <string.h>
 
 const char *const volume_bounds_names[] = {[VOLUME_BOX] = "box", [VOLUME_FLUID] = "fluid", NULL};
-const char *const volume_method_names[] = {
-    [VOLUME_AUTO] = "auto",     [VOLUME_GEOMETRY] = "geometry", [VOLUME_LAYERS] = "layers",
-    [VOLUME_PLANES] = "planes", [VOLUME_SCATTER] = "scatter",   [VOLUME_GATHER] = "gather",
-    [VOLUME_SLABS] = "slabs",   [VOLUME_DIRECT] = "direct",     NULL};
+const char *const volume_method_names[] = {[VOLUME_AUTO] = "auto",       [VOLUME_GEOMETRY] = "geometry",
+                                           [VOLUME_LAYERS] = "layers",   [VOLUME_PLANES] = "planes",
+                                           [VOLUME_SCATTER] = "scatter", [VOLUME_GATHER] = "gather",
+                                           [VOLUME_SLABS] = "slabs",     [VOLUME_IWASAKI] = "iwasaki",
+                                           [VOLUME_DIRECT] = "direct",   NULL};
 const char *const volume_show_names[] = {[VOLUME_SHADED] = "shaded",   [VOLUME_SLICE] = "slice",
                                          [VOLUME_ENTRY] = "entry",     [VOLUME_EXIT] = "exit",
                                          [VOLUME_LENGTH] = "length",   [VOLUME_STEPS] = "steps",

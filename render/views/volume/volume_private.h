@@ -147,7 +147,8 @@ typedef struct VoxelizeMethod {
     bool divides; /* by the solids' shares; else this is done to the textures after each run */
 } VoxelizeMethod;
 
-extern const VoxelizeMethod voxelize_points;  /* geometry, layers, planes */
+extern const VoxelizeMethod voxelize_points; /* geometry, layers, planes */
+extern const VoxelizeMethod voxelize_iwasaki;
 extern const VoxelizeMethod voxelize_compute; /* scatter, gather, direct */
 extern const VoxelizeMethod voxelize_slabs;
 
@@ -155,6 +156,13 @@ extern const VoxelizeMethod voxelize_slabs;
    One draw per layer instead of gl_Layer in a vertex shader, exchanges of bits instead of float atomics. */
 void *voxelize_points_plain(VolumeMethod method, bool scalar, Error *error);
 void *voxelize_compute_plain(VolumeMethod method, bool scalar, Error *error);
+
+/* For methods on the CPU. Reads an attribute of `count` particles into rows of `words` floats; returns false
+   if memory is short. */
+bool voxelize_read(const ParticleAttribute *from, size_t count, size_t words, float *to);
+
+/* True if a particle, x y z and volume, counts: the rule of shaders/volume/volume_particle.glsl. */
+bool voxelize_counts(const float at[4], const VoxelizeJob *job);
 
 /* Binds the lists of a voxelize_compute state. */
 void voxelize_compute_bind(const void *state);

@@ -78,8 +78,7 @@ static bool reserve(Slabs *own, size_t count, const VolumeGrid *grid, Error *err
     return reserve_cells(own, grid, error);
 }
 
-/* Reads an attribute into rows of `words` floats. */
-static bool read_attribute(const ParticleAttribute *from, size_t count, size_t words, float *to)
+bool voxelize_read(const ParticleAttribute *from, size_t count, size_t words, float *to)
 {
     const size_t stride = from->stride / sizeof(float);
     float *raw = stride == words ? to : malloc(count * from->stride);
@@ -94,8 +93,7 @@ static bool read_attribute(const ParticleAttribute *from, size_t count, size_t w
     return true;
 }
 
-/* Same rule as volume_particle in shaders/volume/volume_particle.glsl. */
-static bool counts(const float at[4], const VoxelizeJob *job)
+bool voxelize_counts(const float at[4], const VoxelizeJob *job)
 {
     bool inside = at[3] > 0 && at[3] < 1e30F;
     for (int k = 0; k < 3; k++)
@@ -113,11 +111,11 @@ static bool read_particles(Slabs *own, const VoxelizeJob *job, FieldParticles *o
                                                                                                  dimensions */
     size_t count = 0;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT); /* a GPU backend may have written the buffers */
-    if (all > 0 && !(read_attribute(&particles->position, all, 4, own->position) &&
-                     (!carried || read_attribute(scalar, all, 1, own->value))))
+    if (all > 0 && !(voxelize_read(&particles->position, all, 4, own->position) &&
+                     (!carried || voxelize_read(scalar, all, 1, own->value))))
         return error_set(error, "no memory to read %zu particles", all);
     for (size_t i = 0; i < all; i++) {
-        if (!counts(own->position + 4 * i, job))
+        if (!voxelize_counts(own->position + 4 * i, job))
             continue;
         memmove(own->position + 4 * count, own->position + 4 * i, 4 * sizeof(float));
         own->position[4 * count + 3] *= scale;

@@ -165,7 +165,7 @@ static const VoxelizeMethod *const methods[] = {
     [VOLUME_GEOMETRY] = &voxelize_points, [VOLUME_LAYERS] = &voxelize_points,
     [VOLUME_PLANES] = &voxelize_points,   [VOLUME_SCATTER] = &voxelize_compute,
     [VOLUME_GATHER] = &voxelize_compute,  [VOLUME_SLABS] = &voxelize_slabs,
-    [VOLUME_DIRECT] = &voxelize_compute};
+    [VOLUME_IWASAKI] = &voxelize_iwasaki, [VOLUME_DIRECT] = &voxelize_compute};
 
 /* Software driver: the driver's memory is the CPU's, and sums on the CPU are by far the fastest. Hardware: a
    geometry shader (the paper's method) sends each particle's slices through a few units of a GPU only. */
