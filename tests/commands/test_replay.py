@@ -85,6 +85,24 @@ class Replay(CommandTest):
             self.assertEqual(self.slosh('render', name, '-o', name[2:] + '.png', '--size', '64x48', '--quiet')[0], 0)
         self.assertEqual(self.read('rec.png'), self.read('h5part.png'))
 
+    def test_the_film_follows_views(self):
+        """Keys of views are live: from its step on a picture is that of a scene which has it from the start."""
+        look = ("view: {kind: pbsr, legend: false, pbsr: {repeat: 4, layers: [{of: sphere, level: 0.2, color: [1, 0, 0]}]}}\n")
+        pictures = {}
+        for name, keys, commands in (
+                ('none', '', []), ('moved', '', ['20 set view.pbsr.layers[0].position=[0.3, 0, 0]', '30 set view.pbsr.layers[0].angle=40']),
+                ('early', ', position: [0.3, 0, 0], angle: 40', []), ('spheres', '', ['20 set view.kind=spheres', '30 set view.color_by=density'])):
+            self.record(commands, 40, scene=SCENE + look.replace('level', f'opacity: 0.9{keys}, level'.strip(', ')))
+            code, said = self.slosh('render', 'a.rec', '-o', f'{name}.png', '--size', '64x48', '--quiet', '--set', 'view.carries_scene=false')
+            self.assertEqual((code, len(said.splitlines())), (0, 1), said)  # the renderer
+            pictures[name] = self.read(f'{name}.png')
+            self.slosh('render', 'a.rec', '-o', name, '--size', '64x48', '--quiet', '--fps', '50')
+        self.assertEqual(pictures['moved'], pictures['early'])
+        self.assertEqual(len(set(pictures.values())), 3)
+        first, last = (self.read(f'spheres/frame_0000{k}.png') for k in (0, 3))
+        self.assertEqual(first == self.read('none/frame_00000.png'), True)
+        self.assertNotEqual(last, self.read('none/frame_00003.png'))
+
     def test_a_film_that_is_another_one(self):
         value = self.record()
         self.recording(COMMANDS[1:], [f'end 100 {value}'])

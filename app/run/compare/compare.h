@@ -170,7 +170,7 @@ typedef struct PicturePanel {
     const Session *session;
     Recorded *recorded;   /* instead of a session; its reader is taken over, the rest stays */
     const Session *scene; /* session giving the time for a run; NULL: the picture's time */
-    const ViewDef *view;
+    const ViewDef *view;  /* stays valid; pictures follow its changes */
 } PicturePanel;
 
 /* A session or run: its state on the GPU, for all its panels. */
@@ -196,10 +196,12 @@ typedef struct PanelPictures {
     Panels *panels;
     int source_count;
     PictureSource sources[PANELS_MAX];
-    int source_of[PANELS_MAX]; /* per panel */
-    ViewDef views[PANELS_MAX];
-    int solids[PANELS_MAX]; /* count of shown solids */
-    bool fresh;             /* a state has changed since the last picture */
+    int source_of[PANELS_MAX];        /* per panel */
+    const ViewDef *asked[PANELS_MAX]; /* the views of the callers' panels */
+    ViewDef said[PANELS_MAX];         /* the same as of the last picture */
+    ViewDef views[PANELS_MAX];        /* the same as they are drawn */
+    int solids[PANELS_MAX];           /* count of shown solids */
+    bool fresh;                       /* a state or a view has changed since the last picture */
     MissingAttributes missing;
     Image image; /* the last picture */
 } PanelPictures;

@@ -121,6 +121,8 @@ bool panel_pictures_open(PanelPictures *pictures, const PicturePanel panels[], i
         if (pictures->source_of[i] == known)
             pictures->sources[known].scene = panel->scene;
         source_serve(&pictures->sources[pictures->source_of[i]], panel->view);
+        pictures->asked[i] = panel->view;
+        memcpy(&pictures->said[i], panel->view, sizeof pictures->said[i]);
         pictures->views[i] = view_in_file(panel->view);
         subjects[i] = (Subject){&pictures->views[i], panel->session ? &panel->session->run.scene.world
                                                                     : &panel->recorded->scene.world};
@@ -143,6 +145,40 @@ void panel_pictures_close(PanelPictures *pictures)
     *pictures = (PanelPictures){.panels = NULL};
 }
 
+static const WorldDef *world_of(const PictureSource *source)
+{
+    return source->session ? &source->session->run.scene.world : &source->recorded->scene.world;
+}
+
+/* Takes a panel's view as it is now. A view that reads more gets new uploads. */
+static bool follow_view(PanelPictures *pictures, int panel, Error *error)
+{
+    PictureSource *source = &pictures->sources[pictures->source_of[panel]];
+    const unsigned before = source->attributes;
+    memcpy(&pictures->said[panel], pictures->asked[panel], sizeof pictures->said[panel]);
+    pictures->views[panel] = view_in_file(pictures->asked[panel]);
+    source_serve(source, &pictures->views[panel]);
+    if (source->attributes != before && source->session) {
+        source->capacity = 0;
+        source->before.state.count = 0;
+        source->taken = false;
+        if (!uploads_fit(source, error))
+            return false;
+    }
+    pictures->fresh = true;
+    return panels_set_def(pictures->panels, panel, &pictures->views[panel], world_of(source), error);
+}
+
+/* Commands of a recorded session may change views. */
+static bool follow_views(PanelPictures *pictures, Error *error)
+{
+    for (int i = 0; i < panels_count(pictures->panels); i++)
+        if (memcmp(pictures->asked[i], &pictures->said[i], sizeof pictures->said[i]) != 0 &&
+            !follow_view(pictures, i, error))
+            return false;
+    return true;
+}
+
 static PictureSource *source_of(PanelPictures *pictures, const Session *session)
 {
     return &pictures->sources[source_find(pictures, session, NULL)];
@@ -152,6 +188,8 @@ bool panel_pictures_keep(PanelPictures *pictures, const Session *session, double
 {
     PictureSource *source = source_of(pictures, session);
     const WorldDef *def = &session->run.scene.world;
+    if (!follow_views(pictures, error))
+        return false;
     const double longest = def->step_mode == STEP_FIXED ? def->dt : def->max_dt;
     return session->run.info.time + 1.001 * longest < time ||
            state_copy_read(&source->before, session->run.world, source->attributes) ||
@@ -191,6 +229,8 @@ bool panel_pictures_watch(PanelPictures *pictures, const Session *session, doubl
 {
     PictureSource *source = source_of(pictures, session);
     const double now = session->run.info.time;
+    if (!follow_views(pictures, error))
+        return false;
     if (isinf(source->every) || now < time - source->before_picture ||
         now < source->watched + 0.999 * source->every)
         return true;
@@ -271,6 +311,8 @@ static bool take(const PanelPictures *pictures, PictureSource *source, double ti
 
 bool panel_pictures_take(PanelPictures *pictures, double time, Error *error)
 {
+    if (!follow_views(pictures, error))
+        return false;
     for (int i = 0; i < pictures->source_count; i++)
         if (!take(pictures, &pictures->sources[i], time, &pictures->fresh, error))
             return false;
