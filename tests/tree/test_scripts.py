@@ -26,6 +26,11 @@ class Scripts(unittest.TestCase):
         names = re.search(r'^figures=\((.*)\)$', text, re.M)[1].split()
         functions = [name.replace('_', '-') for name in re.findall(r'^(paper\w+|splat\w+|cost\w+)\(\)', text, re.M)]
         self.assertEqual(sorted(names), sorted(functions))
+        # what they are drawn of is there; tests/long/test_figures.py draws them
+        scenes = set(re.findall(r'^\s*draw ([\w/]+) ', text, re.M)) | {f'papers/{name}' for name in re.findall(r'\{ moments (\w+)', text)}
+        files = {f'scenes/{name}.yaml' for name in scenes} | set(re.findall(r'\$root/([\w/]+\.\w+)"', text))
+        self.assertGreater(len(files), 12)
+        self.assertEqual([name for name in sorted(files) if not (ROOT / name).exists()], [])
 
     def test_tests_that_scripts_and_lists_name(self):
         """tools/test runs a few tests by name; the lists of tests/CMakeLists.txt give tests their order and labels."""
