@@ -284,7 +284,20 @@ static void advise_fills(const YamlTree *tree, const Scene *scene, Notes *notes)
 
 /* Warns of solids that fluid may cross within a step, and of overlaps. */
 
-/* Greatest speed of the box's corners by the scene's shake, rock and spin motions, m/s. */
+/* Greatest rate of a motion by a table, in its unit a second: at the ends of eight parts of each span. */
+static double greatest_rate(const TimeTable *table)
+{
+    double most = 0, rate;
+    for (int k = 0; k + 1 < (int)table->rows; k++)
+        for (int part = 0; part < 8; part++) {
+            time_table_smooth(table, table->time[k] + part * (table->time[k + 1] - table->time[k]) / 8,
+                              &rate);
+            most = fmax(most, fabs(rate));
+        }
+    return most;
+}
+
+/* Greatest speed of the box's corners by the scene's motions but turn and accelerate, m/s. */
 static double greatest_shaking(const WorldDef *def)
 {
     const double *size = def->box_size,
@@ -294,6 +307,8 @@ static double greatest_shaking(const WorldDef *def)
         sum += m->kind == MOTION_SHAKE  ? 2 * M_PI * m->frequency * m->amplitude
                : m->kind == MOTION_ROCK ? 2 * M_PI * m->frequency * fabs(m->angle_deg) * M_PI / 180 * reach
                : m->kind == MOTION_SPIN ? fabs(m->rate) * reach
+               : m->kind == MOTION_PATH ? greatest_rate(&m->table)
+               : m->kind == MOTION_TILT ? greatest_rate(&m->table) * M_PI / 180 * reach
                                         : 0;
     return sum;
 }

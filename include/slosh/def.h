@@ -64,6 +64,10 @@ double time_table_at(const TimeTable *table, double time);
 double time_table_most(const TimeTable *table);
 double time_table_least(const TimeTable *table);
 
+/* A smooth curve through the rows, and its rate. The rate at a row is the mean rate between the rows before
+   and after; 0 at both ends and outside. */
+double time_table_smooth(const TimeTable *table, double time, double *rate);
+
 /* True if there are 0 to TIME_TABLE_ROWS rows, times ascend, and no value is negative, infinite or NaN. */
 bool time_table_sound(const TimeTable *table);
 
@@ -103,7 +107,9 @@ typedef struct BoxState {
     X(ROCK, "rock", "turns to and fro about `axis`: angle (degrees) * sin(2 pi frequency (Hz) t)")           \
     X(TURN, "turn", "turns about `axis` by `angle` (degrees) within `duration` (s), smoothly, and stays")    \
     X(SPIN, "spin", "turns about `axis` at the constant `rate` (rad/s)")                                     \
-    X(ACCELERATE, "accelerate", "moves along `axis` with the constant `acceleration` (m/s2)")
+    X(ACCELERATE, "accelerate", "moves along `axis` with the constant `acceleration` (m/s2)")                \
+    X(PATH, "path", "moves along `axis` by a table of ways (m) over time, in smooth curves")                 \
+    X(TILT, "tilt", "turns about `axis` by a table of angles (degrees) over time, in smooth curves")
 
 typedef enum MotionKind {
 #define X(NAME, name, help) MOTION_##NAME,
@@ -125,6 +131,8 @@ typedef struct Motion {
     double start;        /* s; no motion before */
     double duration;     /* s; 0: unlimited (turn: must be > 0). Afterwards shake and rock rest at their start
                             if the duration is a whole number of half periods */
+    double held;         /* m or degrees, for a table without rows */
+    TimeTable table;     /* m or degrees; at rest before the first row and after the last */
 } Motion;
 
 const char *motion_name(MotionKind kind);
@@ -153,6 +161,11 @@ void box_to_world(const BoxState *box, const double x[3], const double v[3], dou
 
 /* True for a motion without rotation. */
 bool motion_translates(const Motion *motion);
+
+/* A bound of the distance from the start, m or degrees, of a motion by a table. The curve goes at most 0.6 of
+   the greatest value beyond. Slopes over a span are at most twice the greatest value, with Hermite's weights
+   of 4/27. */
+double motion_farthest(const Motion *motion);
 
 /* True if the motion keeps the plane z = 0. */
 bool motion_in_plane(const Motion *motion);

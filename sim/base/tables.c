@@ -109,6 +109,33 @@ double time_table_at(const TimeTable *table, double time)
     return lines_at(table->time, table->value, (int)table->rows, time);
 }
 
+/* Slope of a smooth curve at a row. */
+static double slope_at(const TimeTable *table, int k)
+{
+    return k > 0 && k + 1 < (int)table->rows
+               ? (table->value[k + 1] - table->value[k - 1]) / (table->time[k + 1] - table->time[k - 1])
+               : 0;
+}
+
+/* Hermite's cubics, with the slopes of E. Catmull and R. Rom, "A class of local interpolating splines", 1974.
+ */
+double time_table_smooth(const TimeTable *table, double time, double *rate)
+{
+    const int last = (int)table->rows - 1;
+    int k = 0;
+    while (k < last && table->time[k + 1] <= time)
+        k++;
+    *rate = 0;
+    if (k == last || time <= table->time[0])
+        return table->value[k];
+    const double span = table->time[k + 1] - table->time[k], u = (time - table->time[k]) / span;
+    const double rise = table->value[k + 1] - table->value[k];
+    const double from = span * slope_at(table, k), to = span * slope_at(table, k + 1);
+    const double square = 3 * rise - 2 * from - to, cube = from + to - 2 * rise;
+    *rate = (from + u * (2 * square + u * 3 * cube)) / span;
+    return table->value[k] + u * (from + u * (square + u * cube));
+}
+
 double time_table_most(const TimeTable *table)
 {
     double most = 0;

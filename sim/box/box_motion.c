@@ -1,4 +1,4 @@
-#include "sim/base/key_rows.h"
+#include "sim/box/motion_rows.h"
 #include "slosh/def.h"
 
 #include <math.h>
@@ -101,9 +101,19 @@ static Phase oscillation(double amplitude, double frequency, double t)
     return (Phase){amplitude * sin(omega * t), amplitude * omega * cos(omega * t)};
 }
 
+static Phase table_phase(const Motion *motion, double time, double unit)
+{
+    double rate = 0, value = motion->held;
+    if (motion->table.rows > 0)
+        value = time_table_smooth(&motion->table, time, &rate);
+    return (Phase){unit * value, unit * rate};
+}
+
 static Phase motion_phase(const Motion *motion, double time)
 {
     double t = time - motion->start;
+    if (motion->kind == MOTION_PATH || motion->kind == MOTION_TILT)
+        return table_phase(motion, time, motion->kind == MOTION_PATH ? 1 : M_PI / 180);
     if (t < 0)
         return (Phase){0, 0};
     const bool over = motion->duration > 0 && t > motion->duration;
@@ -131,6 +141,8 @@ static Phase motion_phase(const Motion *motion, double time)
         if (over) /* continues with the reached velocity */
             return (Phase){phase.value + phase.rate * (time - motion->start - t), phase.rate};
         break;
+    case MOTION_PATH:
+    case MOTION_TILT:
     case MOTION_KIND_COUNT:
         break;
     }
@@ -141,7 +153,7 @@ static Phase motion_phase(const Motion *motion, double time)
 
 bool motion_translates(const Motion *motion)
 {
-    return motion->kind == MOTION_SHAKE || motion->kind == MOTION_ACCELERATE;
+    return motion->kind == MOTION_SHAKE || motion->kind == MOTION_ACCELERATE || motion->kind == MOTION_PATH;
 }
 
 static void unit(const double v[3], double out[3])
@@ -191,6 +203,14 @@ void box_state_at(const Motion list[], int count, double box_height, double time
         state->position[k] = centre[k] + arm[k];
         state->velocity[k] = centre_velocity[k] + swirl[k];
     }
+}
+
+double motion_farthest(const Motion *motion)
+{
+    double most = fabs(motion->held);
+    for (int k = 0; k < (int)motion->table.rows; k++)
+        most = fmax(most, 1.6 * fabs(motion->table.value[k]));
+    return most;
 }
 
 bool motion_in_plane(const Motion *motion)
@@ -296,42 +316,19 @@ void box_filter_apply(const BoxFilter *filter, double box_height, BoxState *stat
 
 /* Keys for motions of the box and of solids, and for the box in the hand. */
 
-#define AT(field)     offsetof(BoxLimits, field)
-#define MOTION(field) offsetof(Motion, field)
+#define AT(field) offsetof(BoxLimits, field)
 
-/* Rows of each kind in MOTION_LIST; M: path of the motion. A kind without such a line does not compile. */
-#define AXIS(M) VEC3(M ".axis", R, "", -1000, 1000, MOTION(axis), "direction, of any length but zero"),
-#define AMPLITUDE(M)                                                                                         \
-    NUMBER(M ".amplitude", R, "m", 0, 1e6, MOTION(amplitude), "greatest distance from the start"),
-#define ANGLE(M, MOST) NUMBER(M ".angle", R, "degrees", -(MOST), MOST, MOTION(angle_deg), "greatest angle"),
-#define FREQUENCY(M)                                                                                         \
-    NUMBER(M ".frequency", R, "Hz", 0, 1000, MOTION(frequency), "how often to and fro in a second"),
-#define RATE(M) NUMBER(M ".rate", R, "rad/s", -1000, 1000, MOTION(rate), "angular velocity"),
-#define ACCELERATION(M)                                                                                      \
-    NUMBER(M ".acceleration", R, "m/s2", -1000, 1000, MOTION(acceleration), "along the axis"),
-#define START(M)    NUMBER(M ".start", 0, "s", 0, 1e6, MOTION(start), "still before it"),
-#define DURATION(M) NUMBER(M ".duration", 0, "s", 0, 1e6, MOTION(duration), "0: for ever"),
-#define WITHIN(M)   NUMBER(M ".duration", R | O, "s", 0, 1e6, MOTION(duration), "of the turn"),
-
-#define FIELDS_SHAKE(M)      AXIS(M) AMPLITUDE(M) FREQUENCY(M) START(M) DURATION(M)
-#define FIELDS_ROCK(M)       AXIS(M) ANGLE(M, 180) FREQUENCY(M) START(M) DURATION(M)
-#define FIELDS_TURN(M)       AXIS(M) ANGLE(M, 36000) START(M) WITHIN(M)
-#define FIELDS_SPIN(M)       AXIS(M) RATE(M) START(M) DURATION(M)
-#define FIELDS_ACCELERATE(M) AXIS(M) ACCELERATION(M) START(M) DURATION(M)
-#define MOTION_ROWS(KIND, NAME, HELP)                                                                        \
-    VARIANT("motion[]." NAME, MOTION(kind), MOTION_##KIND, HELP), FIELDS_##KIND("motion[]." NAME)
-#define SOLID_MOTION_ROWS(KIND, NAME, HELP)                                                                  \
-    VARIANT("solids[].motion[]." NAME, MOTION(kind), MOTION_##KIND, HELP),                                   \
-        FIELDS_##KIND("solids[].motion[]." NAME)
+#define BOX_ROWS(KIND, NAME, HELP)   MOTION_ROWS("motion[]", KIND, NAME, HELP)
+#define SOLID_ROWS(KIND, NAME, HELP) MOTION_ROWS("solids[].motion[]", KIND, NAME, HELP)
 
 /* clang-format off */
 const Key motion_keys[] = {
-    MOTION_LIST(MOTION_ROWS)
+    MOTION_LIST(BOX_ROWS)
     KEYS_END,
 };
 
 const Key solid_motion_keys[] = {
-    MOTION_LIST(SOLID_MOTION_ROWS)
+    MOTION_LIST(SOLID_ROWS)
     KEYS_END,
 };
 

@@ -273,6 +273,8 @@ static double way_along(const SolidDef *solid, int axis)
         const double along = fabs(motion->axis[axis]) / length(motion->axis);
         if (motion->kind == MOTION_SHAKE)
             way += motion->amplitude * along;
+        if (motion->kind == MOTION_PATH)
+            way += motion_farthest(motion) * along;
         if (motion->kind == MOTION_ACCELERATE && along > 0)
             way = INFINITY;
     }

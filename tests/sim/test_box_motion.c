@@ -25,6 +25,13 @@ static const Motion passing[] = {
     {.kind = MOTION_TURN, .axis = {0, 1, 0}, .angle_deg = 50, .start = 0.2, .duration = 0.3},
     {.kind = MOTION_ACCELERATE, .axis = {1, 0, 0}, .acceleration = 3, .start = 0.15, .duration = 0.4},
 };
+/* By tables, which begin late and end. */
+static const Motion tables[] = {
+    {.kind = MOTION_PATH, .axis = {0, 3, 4}, .table = {4, {0.1, 0.3, 0.6, 1}, {0, 0.1, -0.05, 0.02}}},
+    {.kind = MOTION_TILT, .axis = {1, 0, 1}, .table = {3, {0.2, 0.5, 0.9}, {0, 40, 15}}},
+    {.kind = MOTION_PATH, .axis = {1, 0, 0}, .held = 0.3},
+};
+enum { TABLES = sizeof tables / sizeof *tables };
 enum { PASSING = sizeof passing / sizeof *passing };
 enum { WILD = sizeof wild / sizeof *wild };
 
@@ -71,6 +78,38 @@ static void rates_are_derivatives(void **state)
     check_no_jump(passing, PASSING);
     check_rates(wild, WILD);
     check_rates(passing, PASSING);
+    check_no_jump(tables, TABLES);
+    check_rates(tables, TABLES);
+}
+
+/* At a row the place is the row's; the speed is the mean from the row before to the row after, and 0 at the
+   ends: a lone row is a place. */
+static void tables_pass_through_their_rows(void **state)
+{
+    (void)state;
+    const Motion *motion = &tables[0];
+    const TimeTable *table = &motion->table;
+    BoxState box;
+    for (int k = 0; k < 4; k++) {
+        const double slope = k > 0 && k < 3 ? (table->value[k + 1] - table->value[k - 1]) /
+                                                  (table->time[k + 1] - table->time[k - 1])
+                                            : 0;
+        box_state_at(motion, 1, 0, table->time[k], &box);
+        assert_float_equal(box.position[1], 0.6 * table->value[k], 1e-12);
+        assert_float_equal(box.position[2], 0.8 * table->value[k], 1e-12);
+        assert_float_equal(box.velocity[2], 0.8 * slope, 1e-12);
+    }
+    for (double t = 0; t < 1.2; t += 0.01) {
+        box_state_at(motion, 1, 0, t, &box);
+        assert_true(fabs(box.position[1]) <= 0.6 * motion_farthest(motion));
+    }
+    box_state_at(motion, 1, 0, 7, &box);
+    assert_float_equal(box.position[2], 0.8 * 0.02, 1e-12);
+    box_state_at(&tables[1], 1, 0, 0.5, &box);
+    assert_float_equal(2 * acos(box.orientation[3]) * 180 / M_PI, 40, 1e-9);
+    const Motion one = {.kind = MOTION_PATH, .axis = {1, 0, 0}, .table = {1, {0.5}, {0.25}}};
+    box_state_at(&one, 1, 0, 0.1, &box);
+    assert_float_equal(box.position[0], 0.25, 1e-12);
 }
 
 /* What a body at rest in the box feels is gravity less the acceleration of its place in the world. */
@@ -164,6 +203,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rates_are_derivatives),
+        cmocka_unit_test(tables_pass_through_their_rows),
         cmocka_unit_test(apparent_gravity_is_that_of_the_place),
         cmocka_unit_test(lone_particle_follows_the_parabola),
         cmocka_unit_test(fluid_floats_in_free_fall),
