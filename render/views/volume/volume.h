@@ -15,8 +15,8 @@ typedef enum VolumeMethod {
     VOLUME_SCATTER,  /* compute: each particle adds to its voxels */
     VOLUME_GATHER,   /* compute: each voxel sums over the particles around, by cell lists */
     VOLUME_SLABS,    /* sums on the CPU, a slab per thread */
-    VOLUME_IWASAKI,  /* planes with all that theirs has: particles clustered by passes on the CPU and sent in
-                        each pass, each pass read back, the volume sent at the end */
+    VOLUME_IWASAKI,  /* planes as published: particles clustered by passes on the CPU and sent in each pass,
+                        each pass read back, the volume sent at the end */
     VOLUME_DIRECT    /* no volume: the field is summed at the sample, by cell lists */
 } VolumeMethod;
 typedef enum VolumeShow {

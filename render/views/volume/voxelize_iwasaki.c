@@ -1,9 +1,9 @@
 /* The volume as by K. Iwasaki, Y. Dobashi, F. Yoshimoto, T. Nishita, "Real-time rendering of point based
-   water surfaces", 2006, and as section IV.A of "SPH coupled with volume rendering" (SIBGRAPI 2010) tells of
-   it, which compares itself with it. For measurements: `planes` draws the same and leaves all on the GPU.
+   water surfaces", 2006, by the account in section IV.A of "SPH coupled with volume rendering" (SIBGRAPI
+   2010). For measurements: `planes` draws the same and leaves all on the GPU.
 
    1. clustering, on the CPU: the particles that cut the four planes of each pass
-   2. for each pass: these are sent and drawn, and the framebuffer of four planes is read back
+   2. for each pass: its particles are sent and drawn, and the framebuffer of four planes is read back
    3. the volume is sent to the GPU */
 #include "render/particles/particles.h"
 #include "render/views/volume/volume_private.h"
