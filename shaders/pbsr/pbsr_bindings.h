@@ -51,11 +51,12 @@
 #define FIELD_HAS_MEAN_AT 43
 #define PIECES_OF_AT      44
 #define PIECES_LEVEL_AT   45
-#define PIECES_AXIS_AT    46
-#define PIECES_ACROSS_AT  47
+#define PIECES_CORNER_AT  46
+#define PIECES_SQUARES_AT 47
 #define PIECES_COLORED_AT 48
 #define SHARE_VIEW_AT     49
 #define SHARE_DENSITY_AT  50
+#define PIECES_ALONG_AT   51 /* and one more */
 
 /* What the pieces of a layer are of, for the passes that make pieces */
 #define PIECES_OF_FIELD  0u

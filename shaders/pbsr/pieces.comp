@@ -17,14 +17,16 @@ layout(location = PIECES_COLORED_AT) uniform uint colored; // by PIECES_BY_
 #endif
 layout(location = PIECES_OF_AT) uniform uint of;
 layout(location = PIECES_LEVEL_AT) uniform float level;   // of a surface
-layout(location = PIECES_AXIS_AT) uniform uint axis;      // of a slice
-layout(location = PIECES_ACROSS_AT) uniform float across; // place of a slice on the axis, cells from the first value
+// of a slice, in cells from the first value: SliceGrid
+layout(location = PIECES_CORNER_AT) uniform vec3 slice_corner;
+layout(location = PIECES_ALONG_AT) uniform vec3 slice_along[2];
+layout(location = PIECES_SQUARES_AT) uniform uvec2 slice_count;
 
 const float fluid_least = 0.5; // FLUID_LEAST
 
 uint items()
 {
-    return of == PIECES_OF_SLICE ? values_size[(axis + 1u) % 3u] * values_size[(axis + 2u) % 3u] : values_count();
+    return of == PIECES_OF_SLICE ? slice_count.x * slice_count.y : values_count();
 }
 
 // ---- values between ----
@@ -141,21 +143,23 @@ void put_cube(uint to, uvec3 cube, uint piece, uint inside)
 
 vec3 square_corner(uvec2 square, uint corner)
 {
-    vec3 index;
-    index[axis] = across;
-    index[(axis + 1u) % 3u] = float(square.x + (corner & 1u));
-    index[(axis + 2u) % 3u] = float(square.y + (corner >> 1));
-    return index;
+    return slice_corner + float(square.x + (corner & 1u)) * slice_along[0] + float(square.y + (corner >> 1)) * slice_along[1];
+}
+
+// The field; 0 beyond the grid.
+float slice_value(vec3 index)
+{
+    bool beyond = any(lessThan(index, vec3(-1e-4))) || any(greaterThan(index, vec3(values_size) - 0.9999));
+    return beyond ? 0.0 : value_at(FIELD_VALUE, index);
 }
 
 uint square_pieces(uvec2 square)
 {
-    uvec2 size = uvec2(values_size[(axis + 1u) % 3u], values_size[(axis + 2u) % 3u]);
     bool there = false;
-    if (any(greaterThanEqual(square + 1u, size)) || across < 0.0 || across > float(values_size[axis] - 1u))
+    if (any(greaterThanEqual(square + 1u, slice_count)))
         return 0u;
     for (uint corner = 0u; corner < 4u; corner++)
-        there = there || value_at(FIELD_VALUE, square_corner(square, corner)) >= fluid_least;
+        there = there || slice_value(square_corner(square, corner)) >= fluid_least;
     return there ? 2u : 0u;
 }
 
@@ -165,7 +169,7 @@ void put_square(uint to, uvec2 square, uint piece)
     for (uint k = 0u; k < 3u; k++) {
         vec3 index = square_corner(square, piece == 0u ? k : uvec3(1u, 3u, 2u)[k]);
         put(3u * to + k, value_place(index), vec3(0.0), colored != 0u ? value_at(COLOR_VALUE, index) : 0.0,
-            value_at(FIELD_VALUE, index) - fluid_least);
+            slice_value(index) - fluid_least);
     }
 }
 #endif
@@ -174,8 +178,7 @@ void put_square(uint to, uvec2 square, uint piece)
 
 uvec2 square_of(uint i)
 {
-    uint width = values_size[(axis + 1u) % 3u];
-    return uvec2(i % width, i / width);
+    return uvec2(i % slice_count.x, i / slice_count.x);
 }
 
 #ifdef COUNT

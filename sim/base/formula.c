@@ -1,4 +1,4 @@
-#include "slosh/def.h"
+#include "sim/base/formula.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -235,4 +235,133 @@ double formula_value(const Formula *formula, const double *values)
         }
     }
     return stack[0];
+}
+
+/* ---- derivatives: automatic differentiation, forwards. After: L. B. Rall, "Automatic differentiation:
+   techniques and applications", 1981 ---- */
+
+static const int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
+
+/* g(a) with the value, the first and the second derivative of g there. */
+static void compose(FormulaJet *a, double value, double first, double second)
+{
+    for (int p = 0; p < 6; p++)
+        a->bend[p] = first * a->bend[p] + second * a->slope[pairs[p][0]] * a->slope[pairs[p][1]];
+    for (int k = 0; k < 3; k++)
+        a->slope[k] *= first;
+    a->value = value;
+}
+
+static void add_times(FormulaJet *a, double times, const FormulaJet *b)
+{
+    a->value += times * b->value;
+    for (int k = 0; k < 3; k++)
+        a->slope[k] += times * b->slope[k];
+    for (int p = 0; p < 6; p++)
+        a->bend[p] += times * b->bend[p];
+}
+
+static void multiply(FormulaJet *a, const FormulaJet *b)
+{
+    FormulaJet out = {.value = a->value * b->value};
+    for (int k = 0; k < 3; k++)
+        out.slope[k] = a->value * b->slope[k] + b->value * a->slope[k];
+    for (int p = 0; p < 6; p++) {
+        const int i = pairs[p][0], j = pairs[p][1];
+        out.bend[p] = a->value * b->bend[p] + b->value * a->bend[p] + a->slope[i] * b->slope[j] +
+                      a->slope[j] * b->slope[i];
+    }
+    *a = out;
+}
+
+static bool is_constant(const FormulaJet *a)
+{
+    return a->slope[0] == 0 && a->slope[1] == 0 && a->slope[2] == 0;
+}
+
+/* A constant exponent takes numbers below 0 too. */
+static void raise_to(FormulaJet *a, const FormulaJet *b)
+{
+    const double x = a->value, n = b->value;
+    if (is_constant(b) && n == 2)
+        compose(a, x * x, 2 * x, 2);
+    else if (is_constant(b) && n == 3)
+        compose(a, x * x * x, 3 * x * x, 6 * x);
+    else if (is_constant(b))
+        compose(a, pow(x, n), n == 0 ? 0 : n * pow(x, n - 1),
+                n == 0 || n == 1 ? 0 : n * (n - 1) * pow(x, n - 2));
+    else {
+        compose(a, log(x), 1 / x, -1 / (x * x));
+        multiply(a, b);
+        const double value = exp(a->value);
+        compose(a, value, value, value);
+    }
+}
+
+/* First and second derivative at x; y: the value. */
+static void slopes_of(double (*one)(double), double x, double y, double *first, double *second)
+{
+    *second = 0;
+    if (one == sin)
+        *first = cos(x), *second = -y;
+    else if (one == cos)
+        *first = -sin(x), *second = -y;
+    else if (one == tan)
+        *first = 1 + y * y, *second = 2 * y * *first;
+    else if (one == exp)
+        *first = *second = y;
+    else if (one == log)
+        *first = 1 / x, *second = -*first * *first;
+    else if (one == sqrt)
+        *first = 0.5 / y, *second = -0.5 * *first / x;
+    else if (one == tanh)
+        *first = 1 - y * y, *second = -2 * y * *first;
+    else if (one == sinh)
+        *first = cosh(x), *second = y;
+    else if (one == cosh)
+        *first = sinh(x), *second = y;
+    else /* fabs */
+        *first = x < 0 ? -1 : 1;
+}
+
+static void combine(int what, size_t function, FormulaJet *a, FormulaJet *b)
+{
+    const double x = b->value;
+    if (what == PLUS || what == MINUS)
+        add_times(a, what == PLUS ? 1 : -1, b);
+    else if (what == POWER)
+        raise_to(a, b);
+    else if (what == FUNCTION_OF_TWO)
+        *a = functions[function].two(a->value, x) == a->value ? *a : *b; /* min, max */
+    else {
+        if (what == OVER)
+            compose(b, 1 / x, -1 / (x * x), 2 / (x * x * x));
+        multiply(a, b);
+    }
+}
+
+void formula_jet(const Formula *formula, const double place[3], FormulaJet *out)
+{
+    FormulaJet stack[FORMULA_SIZE / 2] = {{0}}, *top = stack;
+    for (int k = 0; k < formula->count; k++) {
+        const int what = formula->step[k].what;
+        const size_t which = formula->step[k].which;
+        if (what == NUMBER || what == VARIABLE) {
+            *top = (FormulaJet){.value = what == NUMBER ? formula->step[k].number : place[which]};
+            top->slope[which] = what == VARIABLE;
+            top++;
+        } else if (what == NEGATIVE)
+            compose(top - 1, -top[-1].value, -1, 0);
+        else if (what == FUNCTION_OF_ONE) {
+            double (*one)(double) = functions[which].one;
+            const double x = top[-1].value, y = one(x);
+            double first, second;
+            slopes_of(one, x, y, &first, &second);
+            compose(top - 1, y, first, second);
+        } else {
+            top--;
+            combine(what, which, top - 1, top);
+        }
+    }
+    *out = stack[0];
 }

@@ -1,5 +1,6 @@
 #include "sim/points/points.h"
 
+#include "sim/base/formula.h"
 #include "sim/points/walk.h"
 
 #include <math.h>
@@ -63,6 +64,27 @@ SIMD_INLINE void plane_at(const LevelField *field, const LanePlace *p, LaneSampl
     *out = (LaneSample){x * p->x + y * p->y + z * p->z - number(field, 3), x, y, z, f8_splat(0)};
 }
 
+/* Eight places one by one, in double precision. */
+SIMD_INLINE void formula_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+{
+    f8 straight[3], mixed[3];
+    for (int lane = 0; lane < LANES; lane++) {
+        FormulaJet jet;
+        formula_jet(field->own, (double[3]){(double)p->x[lane], (double)p->y[lane], (double)p->z[lane]},
+                    &jet);
+        out->value[lane] = (float)jet.value;
+        out->x[lane] = (float)jet.slope[0];
+        out->y[lane] = (float)jet.slope[1];
+        out->z[lane] = (float)jet.slope[2];
+        for (int k = 0; k < 3; k++) {
+            straight[k][lane] = (float)jet.bend[k];
+            mixed[k][lane] = (float)jet.bend[3 + k];
+        }
+    }
+    out->bend = lane_bend(out, straight, mixed);
+}
+
+LEVEL_KIND(formula)
 LEVEL_KIND(sphere)
 LEVEL_KIND(torus)
 LEVEL_KIND(gyroid)
@@ -146,5 +168,14 @@ LevelField level_plane(const double low[3], const double high[3], const double p
         field.number[k] = normal[k] / length;
         field.number[3] += field.number[k] * point[k];
     }
+    return field;
+}
+
+LevelField level_formula(const Formula *formula, const double low[3], const double high[3])
+{
+    LevelField field = field_of(&formula_kind, low, high, longest_side(low, high));
+    for (int k = 0; k < 3; k++)
+        field.march[k] /= 2; /* what a user draws may be thinner than a sphere of the box's width */
+    field.own = formula;
     return field;
 }

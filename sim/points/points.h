@@ -3,6 +3,7 @@
 #ifndef SIM_POINTS_POINTS_H
 #define SIM_POINTS_POINTS_H
 
+#include "slosh/def.h"
 #include "slosh/error.h"
 #include "slosh/mesh.h"
 
@@ -176,6 +177,10 @@ LevelField level_gyroid(const double low[3], const double high[3], double period
 /* height + amplitude cos(2 pi x / period) cos(2 pi z / period) - y: an open surface. */
 LevelField level_wave(const double low[3], const double high[3], double height, double amplitude,
                       double period);
+
+/* A formula of x, y and z, m, read with the names "xyz"; it must outlive the field. An open surface ends at
+   the bounds, within which the formula must be finite. */
+LevelField level_formula(const Formula *formula, const double low[3], const double high[3]);
 
 /* For tests: (x - point) . normal, with the normal scaled to length 1: a slice, to colour by a second field.
  */

@@ -149,16 +149,39 @@ static bool same_places(const LayerPoint *const a[3], const LayerPoint b[3])
     return true;
 }
 
+/* A turned slice is a plane through its middle, which is the box's, at the level and moved. */
+static void assert_plane(const PbsrLayer *said, const LayerPieces *pieces, const double box[3])
+{
+    const double middle[3] = {0, box[1] / 2, said->level};
+    double turn[3][3];
+    size_t there = 0;
+    rigid_rotation(said, turn);
+    for (size_t i = 0; i < pieces->point_count; i++) {
+        double off = 0;
+        for (int k = 0; k < 3; k++)
+            off += turn[k][2] * ((double)pieces->point[i].at[k] - middle[k] - said->position[k]);
+        assert_true(fabs(off) < 1e-6);
+        there += pieces->point[i].inside >= 0;
+    }
+    assert_true(there > 100);
+}
+
 /* The CPU's layers, from the GPU's values: in the same order. */
 static void compare_pieces(float far)
 {
     static const PbsrLayer layers[] = {{.of = PBSR_SURFACE, .level = 0.5, .opacity = 0.5},
                                        {.of = PBSR_SCALARS + SCALAR_SPEED, .level = 1.4, .opacity = 0.5},
                                        {.of = PBSR_SLICE_Z, .level = 0.01, .opacity = 0.99},
-                                       {.of = PBSR_VOLUME, .opacity = 0.1}};
+                                       {.of = PBSR_VOLUME, .opacity = 0.1},
+                                       {.of = PBSR_SLICE_Z,
+                                        .level = 0.01,
+                                        .opacity = 0.99,
+                                        .position = {0.05, 0.02, 0},
+                                        .axis = {1, 1, 0},
+                                        .angle_deg = 35}};
     Error error = {0};
     Made made;
-    make(&made, wave(), 4, layers);
+    make(&made, wave(), 5, layers);
     made.sight = sight_from(far);
     assert_true(gpu_fluid_see(&made.gpu, &made.layers, &made.def, &made.job, &made.project, &made.sight,
                               false, &error));
@@ -170,7 +193,7 @@ static void compare_pieces(float far)
     own.fluid = *fluid; /* with the GPU's values as the arrays */
     own.fluid.field = field;
     own.fluid.mean[0] = mean;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 5; i++) {
         LayerPieces *of_gpu = &made.layers.layers[i], *of_cpu = &own.layers[i];
         assert_true(fluid_layer_make(&making, i));
         assert_true(layer_make_shares(of_cpu, &made.sight));
@@ -206,6 +229,8 @@ static void compare_pieces(float far)
                          (double)expected[1]);
             at++;
         }
+        if (i == 4)
+            assert_plane(&layers[i], of_cpu, made.job.particles->box_size);
         assert_int_equal(at, of_gpu->triangle_count ? of_gpu->triangle_count : of_gpu->point_count);
         layer_free(of_cpu);
     }

@@ -715,12 +715,12 @@ static void still_layers_that_fall_short(void **state)
     idle->sampler = PBSR_SAMPLER_WALK;
     shown.curved = 1;
     assert_true(layers_describe_missing(&drawn, words, sizeof words) > 0);
-    assert_string_equal(words,
-                        "position and angle of layer 1 have no effect: it stays where it is in the box; "
-                        "sampler of layer 1 has no effect: its points fall on it at random; "
-                        "curved has no effect on layer 1: it is no surface of the fluid by triangles; "
-                        "interpolation of layer 1 has no effect: it is of no file, and no walk on the "
-                        "fluid's surface");
+    assert_string_equal(
+        words, "position, angle and motion of layer 1 have no effect: it stays where it is in the box; "
+               "sampler of layer 1 has no effect: its points fall on it at random; "
+               "curved has no effect on layer 1: it is no surface of the fluid by triangles; "
+               "interpolation of layer 1 has no effect: it is of no file, and no walk on the "
+               "fluid's surface");
     idle->of = PBSR_SURFACE;
     idle->sampler = PBSR_SAMPLER_AUTO;
     assert_true(layers_describe_missing(&drawn, words, sizeof words) > 0);

@@ -277,7 +277,8 @@ static void assert_alike(PbsrLayer one, PbsrLayer other, PbsrMethod last)
         picture_of(&def, NULL, &scenery, second);
         assert_true(difference(first, again) > 0.01);
         if (difference(first, second) > 1.15 * difference(first, again))
-            fail_msg("method %d: %g, not %g", method, difference(first, second), difference(first, again));
+            fail_msg("%s by method %d: %g, not %g", pbsr_layer_name(other.of), method,
+                     difference(first, second), difference(first, again));
     }
     scenery_free(&scenery);
 }
@@ -319,6 +320,31 @@ static void layers_move(void **unused)
         moved.volume.corner[k] += one.position[k];
     }
     assert_alike(one, other, PBSR_GPU);
+    /* the scenery's time is 1.25 s */
+    static const Motion motions[] = {
+        {.kind = MOTION_PATH, .axis = {0, 1, 0}, .table = {2, {0.25, 2.25}, {0.2, 0.6}}},
+        {.kind = MOTION_SPIN, .axis = {0, 1, 0}, .rate = 0.8},
+    };
+    other = one =
+        (PbsrLayer){.of = PBSR_TORUS, .level = 0.3, .opacity = 0.5, .axis = {1, 0, 0}, .angle_deg = 90};
+    one.motions = motions;
+    one.motion_count = 2;
+    one.position[0] = 0.3;
+    other.position[0] = 0.3;
+    other.position[1] = 0.4;
+    other.axis[0] = cos(0.5); /* 90 degrees about x, then 1 about y: half angles in a quaternion */
+    other.axis[1] = sin(0.5);
+    other.axis[2] = -sin(0.5);
+    other.angle_deg = 2 * acos(sqrt(0.5) * cos(0.5)) * 180 / M_PI;
+    assert_alike(one, other, PBSR_GPU);
+    one = (PbsrLayer){.of = PBSR_SLICE_X, .level = 0.1, .opacity = 0.4};
+    other = (PbsrLayer){
+        .of = PBSR_SLICE_Z, .opacity = 0.4, .axis = {0, 3, 0}, .angle_deg = 90, .position = {0.1, 0, 0}};
+    assert_alike(one, other, PBSR_CPU); /* the GPU's pieces are those of the CPU: pbsr.fluid_gpu */
+    one = (PbsrLayer){.of = PBSR_SPHERE, .level = 0.3, .opacity = 0.5};
+    other =
+        (PbsrLayer){.of = PBSR_FORMULA, .formula = "x^2 + (y - 0.5)^2 + z^2", .level = 0.09, .opacity = 0.5};
+    assert_alike(one, other, PBSR_CPU);
     one = (PbsrLayer){.of = PBSR_SLICE_X, .file = "a", .data = &z, .opacity = 0.9};
     other = (PbsrLayer){
         .of = PBSR_SLICE_Z, .file = "a", .data = &x, .opacity = 0.9, .axis = {0, 2, 0}, .angle_deg = 90};

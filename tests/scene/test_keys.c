@@ -31,6 +31,8 @@ static const char everything[] =
     "  - turn: {axis: [1, 0, 0], angle: 1, duration: 1}\n"
     "  - spin: {axis: [1, 0, 0], rate: 1}\n"
     "  - accelerate: {axis: [1, 0, 0], acceleration: 1}\n"
+    "  - path: {axis: [1, 0, 0], way: 1}\n"
+    "  - tilt: {axis: [1, 0, 0], angle: [[0, 0], [1, 20]]}\n"
     "drains:\n"
     "  - block: {min: [0, 0, 0], max: [0.1, 0.1, 0.1]}\n"
     "  - ball: {centre: [0, 0, 0], radius: 0.1}\n"
@@ -42,6 +44,8 @@ static const char everything[] =
     "      - turn: {axis: [1, 0, 0], angle: 1, duration: 1}\n"
     "      - spin: {axis: [1, 0, 0], rate: 1}\n"
     "      - accelerate: {axis: [1, 0, 0], acceleration: 1}\n"
+    "      - path: {axis: [1, 0, 0], way: [[0, 0], [1, 0.5]]}\n"
+    "      - tilt: {axis: [1, 0, 0], angle: 1}\n"
     "  - box: {centre: [0.4, 0.9, 0.4], size: [0.2, 0.2, 0.2]}\n"
     "  - cylinder: {centre: [0.4, 0.9, 0.4], radius: 0.1, height: 0.2}\n"
     "  - bowl: {centre: [0.4, 0.9, 0.4], radius: 0.1}\n"
@@ -51,7 +55,19 @@ static const char everything[] =
     "  - {name: b, height: {at: [0, 0, 0]}}\n"
     "  - {name: c, line: {from: [0, 0, 0], to: [0, 1, 0]}}\n"
     "  - {name: d, plane: {at: [0, 1, 0], along: [1, 0, 0], across: [0, 0, 1]}}\n"
-    "view: {camera: {from: [3, 3, 3], to: [0, 0, 0]}, camera_path: [{time: 1, from: [3, 3, 3], to: [0, 0, 0]}], pbsr: {layers: [{}]}}\n";
+    "view:\n"
+    "  camera: {from: [3, 3, 3], to: [0, 0, 0]}\n"
+    "  camera_path: [{time: 1, from: [3, 3, 3], to: [0, 0, 0]}]\n"
+    "  pbsr:\n"
+    "    layers:\n"
+    "      - motion:\n"
+    "          - shake: {axis: [1, 0, 0], amplitude: 0.1, frequency: 1}\n"
+    "          - rock: {axis: [1, 0, 0], angle: 1, frequency: 1}\n"
+    "          - turn: {axis: [1, 0, 0], angle: 1, duration: 1}\n"
+    "          - spin: {axis: [1, 0, 0], rate: 1}\n"
+    "          - accelerate: {axis: [1, 0, 0], acceleration: 1}\n"
+    "          - path: {axis: [1, 0, 0], way: 1}\n"
+    "          - tilt: {axis: [1, 0, 0], angle: 1}\n";
 
 static void replace(char *path, const char *pattern, const char *with)
 {

@@ -68,6 +68,32 @@ static void derivatives_are_those_of_the_value(void **state)
     check_derivatives(&plane, "plane", 1e-3, 1, NULL);
 }
 
+/* Each operator and function once, of each place. */
+static void formulas_have_exact_derivatives(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        "x*y - 2*z + sin(3*x)*cos(y)/(2 + z) - exp(x/2)^z",
+        "tan(x) + log(2 + y) + sqrt(1 + z^2) - abs(5 - x*z)",
+        "tanh(x*y) + sinh(y + z) - cosh(z)*x + (2 + x)^3 + (2 + y)^-1.5 - 2^x",
+        "max(x + 9, y) * min(z, 9 - x)",
+        "-x^2 + x^1*3 + y^0 + 4/(z - 3)",
+    };
+    Error error = {{0}};
+    for (int i = 0; i < 5; i++) {
+        Formula formula;
+        if (!formula_read(texts[i], "xyz", &formula, &error))
+            fail_msg("%s", error.message);
+        const LevelField field = level_formula(&formula, low, high);
+        check_derivatives(&field, texts[i], 1e-3, 5, NULL);
+        for (int k = 0; k < 20; k++) {
+            const double p[3] = {0.4 * sin(1.0 + 7 * k), 0.4 * sin(2.0 + 11 * k), 0.4 * sin(3.0 + 13 * k)};
+            const double from[3] = {(double)(float)p[0], (double)(float)p[1], (double)(float)p[2]};
+            check_near((double)at(&field, p).value, formula_value(&formula, from), 1e-5, texts[i]);
+        }
+    }
+}
+
 enum { SIDE = 24 };
 
 /* A gyroid on a grid whose axes are of different sizes. */
@@ -302,6 +328,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(derivatives_are_those_of_the_value),
+        cmocka_unit_test(formulas_have_exact_derivatives),
         cmocka_unit_test(volumes_interpolate_their_values),
         cmocka_unit_test(volumes_are_walked),
         cmocka_unit_test(volumes_as_flat_as_may_be_are_walked),

@@ -206,15 +206,14 @@ bool gpu_fluid_make(GpuFluid *gpu, FluidLayers *layers, const PbsrDef *def, cons
 typedef struct PieceSource {
     unsigned of; /* PIECES_OF_ */
     unsigned levels;
-    int axis;
-    double across; /* of a slice, cells from the first value */
+    SliceGrid slice;
     size_t items;
 } PieceSource;
 
-static PieceSource source_of(const GpuFluid *gpu, const FluidField *fluid, const PbsrLayer *said)
+static PieceSource source_of(const GpuFluid *gpu, const FluidField *fluid, const FluidFieldJob *job,
+                             const PbsrLayer *said)
 {
-    const int *size = fluid->grid.size;
-    PieceSource source = {PIECES_OF_FIELD, gpu->none, 0, 0, cells_of(fluid)};
+    PieceSource source = {.of = PIECES_OF_FIELD, .levels = gpu->none, .items = cells_of(fluid)};
     if (said->of == PBSR_VOLUME)
         source.of = PIECES_OF_VOLUME;
     else if (said->of >= PBSR_SCALARS) {
@@ -222,11 +221,21 @@ static PieceSource source_of(const GpuFluid *gpu, const FluidField *fluid, const
         source.levels = gpu->mean[fluid_field_mean_of(fluid, (Scalar)(said->of - PBSR_SCALARS))];
     } else if (said->of >= PBSR_SLICE_X && said->of <= PBSR_SLICE_Z) {
         source.of = PIECES_OF_SLICE;
-        source.axis = said->of - PBSR_SLICE_X;
-        source.across = (said->level - fluid->grid.corner[source.axis]) / fluid->side[source.axis] - 0.5;
-        source.items = (size_t)size[(source.axis + 1) % 3] * (size_t)size[(source.axis + 2) % 3];
+        fluid_slice_grid(fluid, job->particles->box_size, said, &source.slice);
+        source.items = (size_t)source.slice.count[0] * (size_t)source.slice.count[1];
     }
     return source;
+}
+
+static void set_slice(const SliceGrid *slice)
+{
+    GLfloat along[2][3];
+    for (int i = 0; i < 6; i++)
+        along[i / 3][i % 3] = (GLfloat)slice->along[i / 3][i % 3];
+    glUniform3f(PIECES_CORNER_AT, (GLfloat)slice->corner[0], (GLfloat)slice->corner[1],
+                (GLfloat)slice->corner[2]);
+    glUniform3fv(PIECES_ALONG_AT, 2, along[0]);
+    glUniform2ui(PIECES_SQUARES_AT, (GLuint)slice->count[0], (GLuint)slice->count[1]);
 }
 
 static void begin_pass(const GpuFluid *gpu, unsigned program, const FluidField *fluid,
@@ -239,8 +248,7 @@ static void begin_pass(const GpuFluid *gpu, unsigned program, const FluidField *
     set_grid(fluid, job->flat > 0);
     glUniform1ui(PIECES_OF_AT, source->of);
     glUniform1f(PIECES_LEVEL_AT, (GLfloat)said->level);
-    glUniform1ui(PIECES_AXIS_AT, (GLuint)source->axis);
-    glUniform1f(PIECES_ACROSS_AT, (GLfloat)source->across);
+    set_slice(&source->slice);
     if (program == gpu->emit)
         glUniform1ui(PIECES_COLORED_AT, color < 0 ? 0 : same ? PIECES_BY_LEVELS : PIECES_BY_COLORS);
     glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, PIECES_COLORS_STORAGE, 4,
@@ -253,7 +261,7 @@ static void make_pieces(GpuFluid *gpu, const FluidLayers *layers, const FluidFie
 {
     const FluidField *fluid = &layers->fluid;
     const LayerPieces *layer = &layers->layers[index];
-    const PieceSource source = source_of(gpu, fluid, said);
+    const PieceSource source = source_of(gpu, fluid, job, said);
     PieceRange range = {0};
     begin_pass(gpu, gpu->count, fluid, job, said, &source);
     work_run(source.items + 1);
@@ -372,7 +380,7 @@ bool gpu_fluid_see(GpuFluid *gpu, FluidLayers *layers, const PbsrDef *def, const
 {
     PbsrLayer said[PBSR_LAYERS_MAX];
     const bool waits = !late || !gpu->known;
-    pbsr_layers(def, said);
+    pbsr_layers_at(def, job->particles->time, said);
     if (!begin_room(layers, said, project, error))
         return false;
     if (!waits)

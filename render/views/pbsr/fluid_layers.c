@@ -367,27 +367,107 @@ static bool make_isosurface(const FluidLayersJob *making, const float *values, f
 
 /* ---- slices ---- */
 
-/* A grid of squares in the plane, at the spacing of the field's values. */
-static bool make_slice(const FluidLayersJob *making, int axis, double level, LayerPieces *out)
+/* The plane across an axis: a square at the spacing of the field's values. */
+static void straight_slice(const FluidField *fluid, int axis, double level, SliceGrid *out)
+{
+    *out = (SliceGrid){.count = {0}};
+    out->corner[axis] = (level - fluid->grid.corner[axis]) / fluid->side[axis] - 0.5;
+    if (!(out->corner[axis] >= 0 && out->corner[axis] <= fluid->grid.size[axis] - 1))
+        return;
+    for (int i = 0; i < 2; i++) {
+        out->along[i][(axis + 1 + i) % 3] = 1;
+        out->count[i] = fluid->grid.size[(axis + 1 + i) % 3];
+    }
+}
+
+/* Where the corners of the field's grid are along a direction through a place: least and greatest, m. */
+static void extent_along(const FluidField *fluid, const double place[3], const double way[3], double out[2])
+{
+    out[0] = INFINITY;
+    out[1] = -INFINITY;
+    for (int corner = 0; corner < 8; corner++) {
+        const double index[3] = {(corner & 1) * (fluid->grid.size[0] - 1.0),
+                                 (corner >> 1 & 1) * (fluid->grid.size[1] - 1.0),
+                                 (corner >> 2) * (fluid->grid.size[2] - 1.0)};
+        double at[3], along = 0;
+        place_of(fluid, index, at);
+        for (int k = 0; k < 3; k++)
+            along += way[k] * (at[k] - place[k]);
+        out[0] = fmin(out[0], along);
+        out[1] = fmax(out[1], along);
+    }
+}
+
+/* Squares of `side` m in the plane through `place` along two columns of `turn`, as far as the field goes. */
+static void turned_slice(const FluidField *fluid, const double turn[3][3], int axis, const double place[3],
+                         double side, SliceGrid *out)
+{
+    *out = (SliceGrid){.count = {0}};
+    double first[3] = {place[0], place[1], place[2]};
+    for (int i = 0; i < 2; i++) {
+        const int column = (axis + 1 + i) % 3;
+        const double way[3] = {turn[0][column], turn[1][column], turn[2][column]};
+        double extent[2];
+        extent_along(fluid, place, way, extent);
+        out->count[i] = (int)ceil((extent[1] - extent[0]) / side) + 1;
+        for (int k = 0; k < 3; k++) {
+            first[k] += extent[0] * way[k];
+            out->along[i][k] = side * way[k] / fluid->side[k];
+        }
+    }
+    for (int k = 0; k < 3; k++)
+        out->corner[k] = (first[k] - fluid->grid.corner[k]) / fluid->side[k] - 0.5;
+}
+
+void fluid_slice_grid(const FluidField *fluid, const double box[3], const PbsrLayer *said, SliceGrid *out)
+{
+    const int axis = said->of - PBSR_SLICE_X;
+    const double *at = said->position;
+    double turn[3][3], place[3] = {0, box[1] / 2, 0}, side = INFINITY;
+    if (at[0] == 0 && at[1] == 0 && at[2] == 0 && said->angle_deg == 0) {
+        straight_slice(fluid, axis, said->level, out);
+        return;
+    }
+    rigid_rotation(said, turn);
+    place[axis] = said->level;
+    for (int k = 0; k < 3; k++) {
+        place[k] += at[k];
+        side = fmin(side, fluid->side[k]);
+    }
+    for (;; side *= 1.25) {
+        turned_slice(fluid, turn, axis, place, side, out);
+        if ((out->count[0] <= 2 && out->count[1] <= 2) ||
+            (double)out->count[0] * out->count[1] <= (double)volume_grid_cells(&fluid->grid))
+            break;
+    }
+}
+
+static LayerPoint slice_point(const FluidLayersJob *making, const double index[3])
 {
     const FluidField *fluid = &making->out->fluid;
-    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const size_t width = (size_t)fluid->grid.size[u], height = (size_t)fluid->grid.size[v];
-    double index[3] = {0}, place[3];
-    index[axis] = (level - fluid->grid.corner[axis]) / fluid->side[axis] - 0.5;
+    double place[3];
+    bool there = true;
+    for (int k = 0; k < 3; k++)
+        there = there && index[k] >= -1e-6 && index[k] <= fluid->grid.size[k] - 1 + 1e-6;
+    place_of(fluid, index, place);
+    return (LayerPoint){.at = {(float)place[0], (float)place[1], (float)place[2]},
+                        .value = making->color ? value_at(fluid, making->color, index) : 0,
+                        .inside = there ? value_at(fluid, fluid->field, index) - FLUID_LEAST : -1};
+}
+
+static bool make_slice(const FluidLayersJob *making, const PbsrLayer *said, LayerPieces *out)
+{
+    SliceGrid grid;
+    fluid_slice_grid(&making->out->fluid, making->field->particles->box_size, said, &grid);
+    const size_t width = (size_t)grid.count[0], height = (size_t)grid.count[1];
     if (!layer_reserve(out, width * height, 2 * width * height))
         return false;
-    if (!(index[axis] >= 0 && index[axis] <= fluid->grid.size[axis] - 1))
-        return true; /* no fluid at this plane */
     for (size_t i = 0; i < width * height; i++) {
-        LayerPoint *point = &out->point[i];
         const size_t column = i % width, row = i / width;
-        index[u] = (double)column;
-        index[v] = (double)row;
-        place_of(fluid, index, place);
-        *point = (LayerPoint){.at = {(float)place[0], (float)place[1], (float)place[2]},
-                              .value = making->color ? value_at(fluid, making->color, index) : 0,
-                              .inside = value_at(fluid, fluid->field, index) - FLUID_LEAST};
+        double index[3];
+        for (int k = 0; k < 3; k++)
+            index[k] = grid.corner[k] + (double)column * grid.along[0][k] + (double)row * grid.along[1][k];
+        out->point[i] = slice_point(making, index);
         if (column + 1 < width && row + 1 < height) {
             const uint32_t at = (uint32_t)i, up = (uint32_t)width;
             const uint32_t two[2][3] = {{at, at + 1, at + up}, {at + 1, at + up + 1, at + up}};
@@ -460,7 +540,7 @@ bool fluid_layer_make(const FluidLayersJob *making, int number)
     case PBSR_SLICE_X:
     case PBSR_SLICE_Y:
     case PBSR_SLICE_Z:
-        return make_slice(making, said->of - PBSR_SLICE_X, said->level, out);
+        return make_slice(making, said, out);
     default:
         return make_isosurface(making, fluid_field_mean(fluid, (Scalar)(said->of - PBSR_SCALARS)),
                                (float)said->level, true, out);
@@ -501,7 +581,7 @@ void fluid_field_job(FluidFieldJob *job, const PbsrDef *def, const ParticleBuffe
 bool fluid_layers_make(FluidLayers *layers, const PbsrDef *def, const FluidFieldJob *job, Error *error)
 {
     PbsrLayer said[PBSR_LAYERS_MAX];
-    const int count = pbsr_layers(def, said);
+    const int count = pbsr_layers_at(def, job->particles->time, said);
     bool made = true;
     layers->count = 0;
     if (!fluid_field_make(&layers->fluid, job, error))

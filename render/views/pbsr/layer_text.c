@@ -29,6 +29,8 @@ void layer_text(const PbsrLayer *said, char words[LAYER_TEXT_SIZE])
         snprintf(words, LAYER_TEXT_SIZE, "%s at %.4g", name, said->level);
     else if (said->of >= PBSR_SLICE_X && said->of <= PBSR_SLICE_Z)
         snprintf(words, LAYER_TEXT_SIZE, "%s at %.4g m", name, said->level);
+    else if (said->of == PBSR_FORMULA)
+        snprintf(words, LAYER_TEXT_SIZE, "%.40s = %.4g", said->formula, said->level);
     else if (said->of < PBSR_SCALARS)
         snprintf(words, LAYER_TEXT_SIZE, "%s %.4g m", name, said->level);
     else {
@@ -136,11 +138,14 @@ static void add_idle(TextBuffer *words, int number, const PbsrLayer *said, doubl
 {
     const double *at = said->position, *axis = said->axis;
     const bool moved = at[0] != 0 || at[1] != 0 || at[2] != 0, turned = said->angle_deg != 0;
-    if ((moved || turned) && !pbsr_is_rigid(said))
-        add(words, "%sposition and angle of layer %d have no effect: it stays where it is in the box",
+    if ((moved || turned || said->motion_count > 0) && !pbsr_is_rigid(said) && !pbsr_is_slice(said))
+        add(words, "%sposition, angle and motion of layer %d have no effect: it stays where it is in the box",
             part_from(words), number);
     else if (turned && axis[0] == 0 && axis[1] == 0 && axis[2] == 0)
         add(words, "%slayer %d is not turned: its axis is [0, 0, 0]", part_from(words), number);
+    if (formula_given(said->formula) && (said->of != PBSR_FORMULA || pbsr_is_of_file(said)))
+        add(words, "%sformula of layer %d has no effect: it is no layer of: formula", part_from(words),
+            number);
     if (said->sampler == PBSR_SAMPLER_WALK && !fluid_walk_wanted(said) &&
         (!pbsr_is_rigid(said) || data_pieces_wanted(said)))
         add(words, "%ssampler of layer %d has no effect: its points fall on it at random", part_from(words),

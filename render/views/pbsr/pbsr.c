@@ -82,17 +82,40 @@ static void destroy(void *state)
     free(view);
 }
 
+static bool check_motions(const PbsrLayer said[], int count, Error *error)
+{
+    for (int i = 0; i < count; i++)
+        for (int m = 0; m < said[i].motion_count; m++) {
+            const Motion *motion = &said[i].motions[m];
+            if (motion->axis[0] == 0 && motion->axis[1] == 0 && motion->axis[2] == 0)
+                return error_set(error,
+                                 "motion[%d].%s.axis of layer %d is [0, 0, 0]; it must have a direction", m,
+                                 motion_name(motion->kind), i + 1);
+        }
+    return true;
+}
+
 /* The level of a formula's surface is a length. */
 static bool check(const Subject *subject, const char **key, Error *error)
 {
     PbsrLayer said[PBSR_LAYERS_MAX];
     const int count = pbsr_layers(pbsr_def(subject->def), said);
     *key = "view.pbsr.layers";
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count; i++) {
+        Formula formula;
+        if (said[i].of == PBSR_FORMULA && !pbsr_is_of_file(&said[i]) &&
+            !(formula_given(said[i].formula)
+                  ? formula_read(said[i].formula, "xyz", &formula, error)
+                  : error_set(error, "layer %d of a formula has none; give it a `formula` of x, y and z",
+                              i + 1)))
+            return false;
         if (!pbsr_is_of_file(&said[i]) && said[i].of >= PBSR_SPHERE && said[i].of <= PBSR_GYROID &&
             !(said[i].level > 0))
             return error_set(
                 error, "a layer that is a sphere, a torus or a gyroid has a level above 0: a length in m");
+    }
+    if (!check_motions(said, count, error))
+        return false;
     const int solids = solid_layers_number(pbsr_def(subject->def));
     if (solids >= 0 && !pbsr_has_color(&said[solids]) &&
         solid_layers_colors(subject->world) > SOLID_COLORS_MAX)
@@ -159,11 +182,15 @@ static void layers_from(LayersFrom *from, const ParticleBuffers *particles, cons
     memcpy(&from->def, pbsr_def(frame->def), sizeof from->def);
     from->def.repeat = from->def.moving = 0;
     from->def.budget = from->def.points = from->def.edges = from->def.seed = 0;
-    for (int i = 0; i < from->def.layer_count; i++) { /* a new pose needs no new layer */
+    for (int i = 0; i < from->def.layer_count; i++) { /* a new pose needs no new layer, but of a slice */
         PbsrLayer *layer = &from->def.layers[i];
+        if (pbsr_is_slice(layer))
+            continue;
         layer->angle_deg = 0;
         memset(layer->position, 0, sizeof layer->position);
         memset(layer->axis, 0, sizeof layer->axis);
+        layer->motion_count = 0;
+        layer->motions = NULL;
     }
     from->step = particles->step;
     from->time = particles->time;
@@ -210,11 +237,11 @@ static bool leaves_box(const PbsrDef *def, const double box[3])
     return false;
 }
 
-static void find_looks(const PbsrDef *def, const WorldDef *world, bool by_gpu,
+static void find_looks(const PbsrDef *def, double time, const WorldDef *world, bool by_gpu,
                        AverageLook looks[AVERAGE_NUMBERS_MAX])
 {
     PbsrLayer said[PBSR_LAYERS_MAX];
-    const int count = pbsr_layers(def, said);
+    const int count = pbsr_layers_at(def, time, said);
     memset(looks, 0, AVERAGE_NUMBERS_MAX * sizeof *looks);
     for (int i = 0; i < count; i++) {
         looks[i].own = pbsr_has_color(&said[i]);
@@ -258,7 +285,7 @@ static bool see_layers(PbsrView *view, const ParticleBuffers *particles, const P
                        const Frame *frame)
 {
     PbsrLayer said[PBSR_LAYERS_MAX];
-    const int count = pbsr_layers(def, said);
+    const int count = pbsr_layers_at(def, particles->time, said);
     FluidFieldJob job;
     hurry(view, def, frame);
     fluid_field_job(&job, def, particles, color_of(frame), frame->slab);
@@ -314,7 +341,7 @@ static bool follow(PbsrView *view, const ParticleBuffers *particles, const Frame
         !gpu_fluid_lacks_room(&view->fluid, &view->layers, pbsr_def(frame->def)))
         return true;
     view->valid = false;
-    find_looks(pbsr_def(frame->def), frame->world, view->project.program != 0, looks);
+    find_looks(pbsr_def(frame->def), particles->time, frame->world, view->project.program != 0, looks);
     if ((!same_layers && !make_layers(view, particles, frame)) ||
         !average_begin(&view->average, frame, looks, leaves_box(pbsr_def(frame->def), particles->box_size),
                        &view->trouble) ||

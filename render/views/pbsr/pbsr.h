@@ -5,6 +5,7 @@
 #include "render/frame/view.h"
 #include "sim/base/base.h"
 #include "sim/points/points.h"
+#include "slosh/def.h"
 
 enum { PBSR_LAYERS_MAX = 8 };
 
@@ -19,7 +20,8 @@ enum {
     PBSR_TORUS,
     PBSR_GYROID,
     PBSR_WAVE,
-    PBSR_SOLIDS, /* solids of the scene: render/views/pbsr/pbsr_private.h */
+    PBSR_FORMULA, /* a formula of the user's own */
+    PBSR_SOLIDS,  /* solids of the scene: render/views/pbsr/pbsr_private.h */
     PBSR_SCALARS
 };
 
@@ -38,10 +40,13 @@ typedef struct MAY_ALIAS PbsrLayer {
     int sampler;               /* a PbsrSampler */
     int interpolation;         /* PBSR_BY_ITSELF, or PBSR_BY_GRID and up */
     const RangedVolume *data;  /* the file's data, set by the scene's reader; NULL: none */
+    const char *formula;       /* of PBSR_FORMULA: of x, y, z, m, in the box's frame; "none": none */
     const char *file;          /* volume data; "none": the layer is of the fluid, or a formula */
     double position[3];        /* translation in the box's frame, m */
     double axis[3], angle_deg; /* rotation about the layer's middle, before the translation; `axis` has any
                                   length */
+    int motion_count;
+    const Motion *motions; /* on top of that pose, as of a solid: all together, turns about the middle */
     double level;    /* fluid's surface: value of the field; slice: position on the axis, m; scalar: in the
                         scalar's unit; formula: a length, m */
     double opacity;  /* 0 .. 1: of a surface seen from the front; of volume one spacing deep */
@@ -85,6 +90,9 @@ VolumeInterpolation pbsr_interpolation(const PbsrLayer *layer);
 /* True if the layer is not of the fluid: of a file, or a formula. */
 bool pbsr_is_rigid(const PbsrLayer *layer);
 
+/* True if the layer is a plane through the fluid. */
+bool pbsr_is_slice(const PbsrLayer *layer);
+
 /* True for a formula without a colour, which takes the fluid's colours. */
 bool pbsr_takes_fluid_colors(const PbsrLayer *layer);
 
@@ -93,6 +101,9 @@ bool pbsr_has_color(const PbsrLayer *layer);
 
 /* Fills in the layers; returns their number, at least 1. */
 int pbsr_layers(const PbsrDef *def, PbsrLayer layers[PBSR_LAYERS_MAX]);
+
+/* The same with the poses at `time`, s: position, axis and angle are with the motions. */
+int pbsr_layers_at(const PbsrDef *def, double time, PbsrLayer layers[PBSR_LAYERS_MAX]);
 
 /* ViewKind.files of the view. */
 int pbsr_files(const ViewDef *def, ViewFile files[VIEW_FILES_MAX]);

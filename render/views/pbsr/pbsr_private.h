@@ -12,6 +12,7 @@
 #include "sim/gpu/particle_buffers.h"
 #include "sim/gpu/points/points_gpu.h"
 #include "sim/points/points.h"
+#include "slosh/def.h"
 #include "slosh/mesh.h"
 
 #include <math.h>
@@ -352,6 +353,16 @@ typedef struct FluidLayersJob {
     bool failed[PBSR_LAYERS_MAX];
 } FluidLayersJob;
 
+/* A slice as a grid of squares, in cells from the field's first value: corner + column along[0] + row
+ * along[1]. */
+typedef struct SliceGrid {
+    double corner[3], along[2][3];
+    int count[2]; /* corners of squares each way; 0: no fluid at this plane */
+} SliceGrid;
+
+/* `said`: with its pose at the picture's time. At most as many corners as the field has values. */
+void fluid_slice_grid(const FluidField *fluid, const double box[3], const PbsrLayer *said, SliceGrid *out);
+
 /* Makes a layer from the field in `making->out`. Returns false if memory is short. */
 bool fluid_layer_make(const FluidLayersJob *making, int number);
 
@@ -397,6 +408,7 @@ typedef struct RigidLayer {
     int moving; /* set by the caller: number of sets made while looks change; the rest follows when a look
                    repeats. 0: all sets at each look, so that points do not depend on earlier looks */
     LevelField field;  /* in the layer's frame, as all members below */
+    Formula formula;   /* of PBSR_FORMULA: what the field is of */
     Polygons polygons; /* surface of the points instead of a level of `field`, which then gives only the
                           bounds */
     SetSight sight;    /* the last look's sight, from the layer's frame */

@@ -5,14 +5,13 @@
 #include <math.h>
 #include <string.h>
 
-static const double DEGREE = 3.14159265358979323846 / 180;
-
 /* Radius of a torus's tube, as a fraction of the ring's radius. */
 static const double TUBE = 1.0 / 3;
 
 /* The field in the layer's own frame, which is the box's frame without a pose. Returns false with the
-   reason: a file could not be read, or values are NaN. */
-static bool rigid_field(const PbsrLayer *said, const double box[3], LevelField *field, Error *error)
+   reason: a file could not be read, values are NaN, or a formula is wrong. `formula`: of the field. */
+static bool rigid_field(const PbsrLayer *said, const double box[3], Formula *formula, LevelField *field,
+                        Error *error)
 {
     const double low[3] = {-box[0] / 2, 0, -box[2] / 2}, high[3] = {box[0] / 2, box[1], box[2] / 2};
     const double centre[3] = {0, box[1] / 2, 0}, size = said->level;
@@ -33,26 +32,13 @@ static bool rigid_field(const PbsrLayer *said, const double box[3], LevelField *
     case PBSR_GYROID:
         *field = level_gyroid(low, high, size);
         break;
+    case PBSR_FORMULA:
+        *field = level_formula(formula, low, high);
+        return formula_read(said->formula, "xyz", formula, error);
     default:
         *field = level_wave(low, high, size, 0.1 * box[1], 0.5 * fmax(box[0], box[2]));
     }
     return true;
-}
-
-/* Rotation about an axis by an angle: O. Rodrigues, 1840. */
-void rigid_rotation(const PbsrLayer *said, double turn[3][3])
-{
-    const double *a = said->axis, length = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-    const double angle = length > 0 ? said->angle_deg * DEGREE : 0, by = length > 0 ? 1 / length : 0;
-    const double n[3] = {a[0] * by, a[1] * by, a[2] * by}, c = cos(angle), s = sin(angle);
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++)
-            turn[i][k] = (1 - c) * n[i] * n[k] + (i == k ? c : 0);
-    for (int i = 0; i < 3; i++) {
-        const int k = (i + 1) % 3, m = (i + 2) % 3;
-        turn[i][k] -= s * n[m];
-        turn[k][i] += s * n[m];
-    }
 }
 
 /* Converts a row for positions x in the box's frame to the layer's frame: place = turn (x - middle) +
@@ -95,7 +81,7 @@ bool rigid_leaves_box(const PbsrLayer *said, const double box[3])
     const bool ball = said->of == PBSR_SPHERE || said->of == PBSR_TORUS;
     return pbsr_is_rigid(said) &&
            (pbsr_is_of_file(said) || at[0] != 0 || at[1] != 0 || at[2] != 0 || said->angle_deg != 0 ||
-            (ball && 2 * reach > fmin(box[0], fmin(box[1], box[2]))));
+            said->motion_count > 0 || (ball && 2 * reach > fmin(box[0], fmin(box[1], box[2]))));
 }
 
 bool data_pieces_wanted(const PbsrLayer *said)
@@ -296,11 +282,13 @@ static bool make_points(RigidLayer *rigid, const SurfaceRequest *said, SurfaceRe
 static bool make_sets(RigidLayer *rigid, unsigned number, double density, double sets, SurfaceResult *result)
 {
     const LevelField *field = &rigid->field;
-    const bool triangles = rigid->said.sampler == PBSR_SAMPLER_TRIANGLES;
+    const bool costly = rigid->said.of == PBSR_FORMULA && !pbsr_is_of_file(&rigid->said);
+    const bool triangles =
+        rigid->said.sampler == PBSR_SAMPLER_TRIANGLES || (costly && rigid->said.sampler == PBSR_SAMPLER_AUTO);
     const int most = (int)fmin(sets, rigid->repeat);
     const SurfaceRequest request = {
         .field = field,
-        .level = pbsr_is_of_file(&rigid->said) ? rigid->said.level : 0,
+        .level = pbsr_is_of_file(&rigid->said) || rigid->said.of == PBSR_FORMULA ? rigid->said.level : 0,
         .sampler = triangles ? SURFACE_TRIANGLES : SURFACE_WALK,
         .density = density,
         .sets = most > 1 ? most : 1,
@@ -350,7 +338,8 @@ static bool sample_surface(RigidLayer *rigid, unsigned number, int most)
 static bool same_surface(const PbsrLayer *a, const PbsrLayer *b)
 {
     return a->of == b->of && a->level == b->level && a->sampler == b->sampler && a->data == b->data &&
-           a->interpolation == b->interpolation && pbsr_is_of_file(a) == pbsr_is_of_file(b);
+           a->interpolation == b->interpolation && a->formula == b->formula &&
+           pbsr_is_of_file(a) == pbsr_is_of_file(b);
 }
 
 static bool same(const RigidLayer *rigid, const PbsrLayer *said, const PbsrDef *def, const double box[3])
@@ -372,7 +361,7 @@ static bool begin_layer(RigidLayer *rigid, const PbsrLayer *said, const PbsrDef 
     rigid->most = def->points;
     rigid->share = 1;
     memcpy(rigid->box, box, sizeof rigid->box);
-    rigid->begun = rigid_field(said, box, &rigid->field, &rigid->trouble) &&
+    rigid->begun = rigid_field(said, box, &rigid->formula, &rigid->field, &rigid->trouble) &&
                    (!data_pieces_wanted(said) ||
                     data_pieces_make(said, &rigid->field, number, &rigid->pieces, &rigid->trouble));
     return rigid->begun;
@@ -436,8 +425,9 @@ bool rigid_layer_update(RigidLayer *rigid, const PbsrLayer *said, const PbsrDef 
     if (!rigid->begun)
         return false;
     rigid->sight = rigid_sight(said, &rigid->field, sight);
-    return data_pieces_wanted(said) ? see_pieces(rigid, said)
-                                    : rigid_layer_make_points(rigid, said, said->angle_deg != 0, number);
+    return data_pieces_wanted(said)
+               ? see_pieces(rigid, said)
+               : rigid_layer_make_points(rigid, said, said->motion_count > 0 || said->angle_deg != 0, number);
 }
 
 void rigid_layer_of_polygons(RigidLayer *rigid, Polygons *polygons, const PbsrDef *def, unsigned stream,
