@@ -81,11 +81,29 @@ bool volume_header_load(const char *path, VolumeHeader *header, Error *error);
    if the raw file has another length than the header gives, or a value that is not finite. */
 bool volume_file_load(const char *path, VolumeData *volume, float **values, Error *error);
 
+/* Scattered points with normals from a PLY file. */
+
+typedef struct PointsFile {
+    size_t count;
+    float (*place)[3], (*normal)[3]; /* m; outwards, of any length */
+} PointsFile;
+
+/* Parses the bytes of a file; pure. Returns false with "path:line: problem; advice". */
+bool points_parse(const char *path, const char *bytes, size_t size, PointsFile *out, Error *error);
+void points_free(PointsFile *points); /* a zeroed struct is allowed */
+
+/* True for a name of such a file: *.ply. */
+bool points_file_is(const char *path);
+
+/* As volume_file_load, of the surface through the points (sim/points/scattered.h). */
+bool points_file_load(const char *path, VolumeData *volume, float **values, Error *error);
+
 /* Cache of volume data. */
 
-/* Returns the data of a header and its raw file, reading the files unless unchanged since the last read.
-   The data lives as long as the program, as scenes are copied and have no single owner; equal values at
-   equal positions are kept once. Returns NULL with the reason, as volume_file_load. Main thread only. */
+/* Returns the data of a header and its raw file, or of a file of points, reading the files unless unchanged
+   since the last read. The data lives as long as the program, as scenes are copied and have no single owner;
+   equal values at equal positions are kept once. Returns NULL with the reason, as volume_file_load. Main
+   thread only. */
 const RangedVolume *volume_file_cached(const char *path, Error *error);
 
 /* Meshes from files, by assimp: OBJ, PLY, STL, glTF. */

@@ -298,6 +298,8 @@ static bool take_stamps(const char *path, VolumeStamp stamps[2])
     char raw[VOLUME_PATH_SIZE];
     VolumeHeader header;
     Error none;
+    if (points_file_is(path))
+        return take_stamp(path, &stamps[0]);
     if (!take_stamp(path, &stamps[0]) || !volume_header_load(path, &header, &none))
         return false;
     volume_raw_path(path, &header, raw);
@@ -349,7 +351,8 @@ const RangedVolume *volume_file_cached(const char *path, Error *error)
     CachedVolume *kept = stamped ? find_stamps(stamps) : NULL;
     if (kept)
         return &kept->data;
-    if (!volume_file_load(path, &volume, &values, error)) {
+    if (!(points_file_is(path) ? points_file_load(path, &volume, &values, error)
+                               : volume_file_load(path, &volume, &values, error))) {
         free(values);
         return NULL;
     }
