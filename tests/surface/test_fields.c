@@ -2,6 +2,7 @@
    particles' field against the sum over all. */
 #include "fixture.h"
 
+#include "sim/base/formula.h"
 #include "sim/points/points.h"
 
 static const double low[3] = {-0.5, -0.5, -0.5}, high[3] = {0.5, 0.5, 0.5};
@@ -68,6 +69,27 @@ static void derivatives_are_those_of_the_value(void **state)
     check_derivatives(&plane, "plane", 1e-3, 1, NULL);
 }
 
+/* Second derivatives are the differences of first ones, in double precision. */
+static void check_bends(const Formula *formula, const double p[3], const char *text)
+{
+    static const int number[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}; /* xx yy zz xy yz zx */
+    const double step = 1e-5;
+    FormulaJet here;
+    formula_jet(formula, p, &here);
+    for (int k = 0; k < 3; k++) {
+        double a[3] = {p[0], p[1], p[2]}, b[3] = {p[0], p[1], p[2]};
+        FormulaJet before, after;
+        a[k] -= step;
+        b[k] += step;
+        formula_jet(formula, a, &before);
+        formula_jet(formula, b, &after);
+        for (int j = 0; j < 3; j++) {
+            const double bend = (after.slope[j] - before.slope[j]) / (2 * step);
+            check_near(here.bend[number[k][j]], bend, 1e-5 * (1 + fabs(bend)), text);
+        }
+    }
+}
+
 /* Each operator and function once, of each place. */
 static void formulas_have_exact_derivatives(void **state)
 {
@@ -90,6 +112,7 @@ static void formulas_have_exact_derivatives(void **state)
             const double p[3] = {0.4 * sin(1.0 + 7 * k), 0.4 * sin(2.0 + 11 * k), 0.4 * sin(3.0 + 13 * k)};
             const double from[3] = {(double)(float)p[0], (double)(float)p[1], (double)(float)p[2]};
             check_near((double)at(&field, p).value, formula_value(&formula, from), 1e-5, texts[i]);
+            check_bends(&formula, p, texts[i]);
         }
     }
 }
