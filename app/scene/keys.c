@@ -368,13 +368,15 @@ static int elements_of(const Scene *scene, const Key *list)
     return elements;
 }
 
-static bool is_of_value(const Scene *scene, const Key *key, const char *value)
+static bool is_as_owned(const Scene *scene, const Key *key, const KeyOwner *owner)
 {
     char now[NAME_SIZE];
     if (key->type == KEY_LIST)
         return elements_of(scene, key) > 0;
     key_value_text(key, scene, now, sizeof now);
-    return value ? strcmp(now, value) == 0 : strcmp(now, "none") != 0;
+    if (owner->unless)
+        return strcmp(now, owner->unless) != 0;
+    return owner->value ? strcmp(now, owner->value) == 0 : strcmp(now, "none") != 0;
 }
 
 bool key_owner_used(const KeyOwner *owner, const Scene *scene, KeyUse use)
@@ -384,7 +386,7 @@ bool key_owner_used(const KeyOwner *owner, const Scene *scene, KeyUse use)
     const Key *key = scene_key_find(owner->key);
     if (key->flags & KEY_LIVE && scene->purpose == SCENE_FOR_WINDOW && use != KEY_AT_PRESENT)
         return true;
-    return (key->flags & KEY_IDLE && use == KEY_OF_FILE) || is_of_value(scene, key, owner->value);
+    return (key->flags & KEY_IDLE && use == KEY_OF_FILE) || is_as_owned(scene, key, owner);
 }
 
 const KeyOwner *key_owner_missing(const Key *key, const Scene *scene, KeyUse use)

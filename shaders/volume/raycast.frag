@@ -1,6 +1,6 @@
 // Marches through the volume from entry to exit, or to a solid: opaque to the surface, WATER beyond the surface, or TRANSLUCENT
 // with gathered light. WHOLE: includes the parts left out in a draft. SHOW 1 entry, 2 exit, 3 length, 4 steps, 5 normals show
-// inputs instead. After: "SPH coupled with volume rendering", SIBGRAPI 2010, section IV.B; Krüger and Westermann 2003; Scharsach
+// inputs instead. MESH: the surface is where triangles were drawn; FACETS: with a normal each, and edges. After: "SPH coupled with volume rendering", SIBGRAPI 2010, section IV.B; Krüger and Westermann 2003; Scharsach
 // 2005.
 #include "common/frame.glsl"
 #include "common/light.glsl"
@@ -26,6 +26,15 @@
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 color;
 layout(location = 1) out float found; // distance of the hit along the eye's axis, m; 0: no hit
+#ifdef FACETS
+layout(binding = FACETS_UNIT) uniform sampler2D facet_map; // of the mesh: normal, edge
+
+vec4 facet_at(Ray ray)
+{
+    vec4 facet = texelFetch(facet_map, ivec2(gl_FragCoord.xy), 0);
+    return ray.begin > near_start ? facet : vec4(normal_at(ray, ray.begin), 0.0);
+}
+#endif
 
 #if SHOW == 1 || SHOW == 2 || SHOW == 3
 void show(Ray ray)
@@ -58,7 +67,12 @@ void show(Ray ray)
     if (t < 0.0)
         discard;
     found = t;
+#ifdef FACETS
+    vec4 facet = facet_at(ray);
+    vec3 normal = facet.xyz, place = t * ray.to;
+#else
     vec3 normal = normal_at(ray, t), place = t * ray.to;
+#endif
 #if SHOW == 5
     color = vec4(0.5 + 0.5 * normal, 1.0);
 #else
@@ -74,6 +88,9 @@ void show(Ray ray)
 #endif
 #else
     color = vec4(mix(albedo, phong(surface), shading), 1.0);
+#endif
+#ifdef FACETS
+    color.rgb *= 1.0 - 0.6 * facet.w;
 #endif
 #endif
 #endif

@@ -97,6 +97,10 @@ Ray eye_ray()
     float entry = texelFetch(entry_map, pixel, 0).x, leave = texelFetch(exit_map, pixel, 0).x;
     Ray ray = ray_from(vec3(0.0), ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)));
     ray.begin = near_start > 0.0 ? near_start : near_plane / max(entry, 1e-30);
+#ifdef MESH // entries are the mesh's triangles; an eye within the fluid sees the fluid at once
+    if (near_start > 0.0 && field_at(ray_at(ray, near_start)) < surface_level)
+        ray.begin = near_plane / max(entry, 1e-30);
+#endif
     ray.end = min(near_plane / max(leave, 1e-30), solid_end());
     cut_to_walls(ray);
     return ray;

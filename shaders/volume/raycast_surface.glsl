@@ -18,6 +18,9 @@ float refined(Ray ray, float t, float f, float beyond, float g)
 }
 
 // t of the surface; negative: none. A ray that starts in the fluid hits at its start.
+#ifdef MESH
+float find_surface(Ray ray) { return ray.begin; }
+#else
 float find_surface(Ray ray)
 {
     float t = ray.begin, f = field_at(ray_at(ray, t)), per_m = 1.0 / ray.slant, before = t, below = f;
@@ -30,6 +33,7 @@ float find_surface(Ray ray)
         return -1.0;
     return t > before ? refined(ray, before, below, t, f) : t; // after the loop: a software driver runs the whole body in each round
 }
+#endif
 
 #ifdef WHOLE
 // As slope_at, from differences across a spacing: the patterns of particles in rows, as at rest, cancel out, and a flat top shows

@@ -10,6 +10,9 @@
 /* Storage buffers */
 #define FACES_STORAGE         4
 #define FACES_COMMAND_STORAGE 5
+#define MESH_CUBES_STORAGE    4
+#define MESH_COMMAND_STORAGE  5
+#define MESH_CASES_STORAGE    6
 #define BOUNDS_STORAGE        7
 #define SOLID_SHARES_STORAGE  4 /* before the faces */
 /* lists of cells, bound in order by a single call */
@@ -32,8 +35,9 @@
 #define OPACITY_FIELD_UNIT  16
 #define OPACITY_SCALAR_UNIT 17
 /* sums of the fluids' green and blue, bound in order by a single call */
-#define GREEN_UNIT 18
-#define BLUE_UNIT  19
+#define GREEN_UNIT  18
+#define BLUE_UNIT   19
+#define FACETS_UNIT 20 /* normals and edges of a mesh's triangles */
 
 /* Image units */
 #define FIELD_IMAGE        0

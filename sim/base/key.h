@@ -51,6 +51,7 @@ typedef struct KeyOwner {
     /* The owner is in use if the key at path `key` has this value: "solver.method" and a method's name.
        NULL `value`: any name but "none"; for a list, any element. */
     const char *key, *value;
+    const char *unless;  /* instead of `value`: any other value than this */
     const char *command; /* instead of a key: the only command that reads the keys, "chart" */
     const char *need;    /* words for the missing part of a scene; NULL: "key: value" */
 } KeyOwner;

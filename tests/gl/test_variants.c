@@ -487,7 +487,7 @@ NOINLINE static void incompressible_lives(const char *method)
     LIVE(base, d.dimensions = 2, d.tension_model = TENSION_COLOUR_FIELD, d.fluids[0].surface_tension = 0.1);
 }
 
-enum { VIEWS_MAX = 120 };
+enum { VIEWS_MAX = 128 };
 
 /* Every view, with all settings that change shaders. */
 static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
@@ -560,6 +560,8 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
              v.opacity.by = 1 + (int)view_color_by(&v),
              volume_def(&v)->raycast.curve = volume_presets[3].points);
     }
+    VIEW("volume", volume_def(&v)->surface = VOLUME_MESH);
+    VIEW("volume", volume_def(&v)->surface = VOLUME_FACETS, volume_def(&v)->raycast.look = RAYCAST_WATER);
     for (int show = VOLUME_SLICE; show <= VOLUME_NORMALS; show++)
         VIEW("volume", volume_def(&v)->show = (VolumeShow)show);
     for (int look = RAYCAST_OPAQUE; look <= RAYCAST_TRANSLUCENT; look++)

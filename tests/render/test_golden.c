@@ -350,7 +350,7 @@ static void test_slice_flat(void **state)
 }
 
 /* Two fluids over the floor, and a ball partly in a fluid. */
-static void cast_volume(const char *name, RaycastLook look)
+static void cast_volume(const char *name, RaycastLook look, VolumeSurface surface)
 {
     static const SolidDef ball = {SOLID_SPHERE, .centre = {-0.45, 0.4, 0.1}, .radius = 0.25,
                                   .color = {0.75F, 0.20F, 0.12F}};
@@ -358,8 +358,9 @@ static void cast_volume(const char *name, RaycastLook look)
     text_set(golden.def.kind, "volume");
     golden.def.color_by = SCALAR_FLUID;
     volume_def(&golden.def)->raycast.look = look;
+    volume_def(&golden.def)->surface = surface;
     volume_def(&golden.def)->raycast.jitter = false;
-    volume_def(&golden.def)->cells = 64;
+    volume_def(&golden.def)->cells = surface == VOLUME_FACETS ? 24 : 64;
     golden.world.solid_count = 1;
     golden.world.solids[0] = ball;
     check(&golden);
@@ -368,19 +369,25 @@ static void cast_volume(const char *name, RaycastLook look)
 static void test_volume(void **state)
 {
     (void)state;
-    cast_volume("volume", RAYCAST_OPAQUE);
+    cast_volume("volume", RAYCAST_OPAQUE, VOLUME_RAYS);
+}
+
+static void test_volume_facets(void **state)
+{
+    (void)state;
+    cast_volume("facets", RAYCAST_OPAQUE, VOLUME_FACETS);
 }
 
 static void test_volume_water(void **state)
 {
     (void)state;
-    cast_volume("volume_water", RAYCAST_WATER);
+    cast_volume("volume_water", RAYCAST_WATER, VOLUME_RAYS);
 }
 
 static void test_volume_translucent(void **state)
 {
     (void)state;
-    cast_volume("volume_translucent", RAYCAST_TRANSLUCENT);
+    cast_volume("volume_translucent", RAYCAST_TRANSLUCENT, VOLUME_RAYS);
 }
 
 static void test_trails(void **state)
@@ -454,6 +461,7 @@ int main(void)
         cmocka_unit_test_teardown(test_slice_behind, no_gl_errors),
         cmocka_unit_test_teardown(test_slice_flat, no_gl_errors),
         cmocka_unit_test_teardown(test_volume, no_gl_errors),
+        cmocka_unit_test_teardown(test_volume_facets, no_gl_errors),
         cmocka_unit_test_teardown(test_volume_water, no_gl_errors),
         cmocka_unit_test_teardown(test_volume_translucent, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_water, no_gl_errors),

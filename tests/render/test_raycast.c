@@ -1,4 +1,5 @@
-/* Rays through known fields: intersections with a ball, optical depth, occlusion by and of solids. */
+/* Rays through known fields, and meshes of known fields: intersections with a ball, optical depth, triangles,
+   occlusion by and of solids. */
 #include "tests/render/raycast_fixture.h"
 
 /* In a box of 1 m: 64 cells along a side, whose first corner is the box's. */
@@ -77,9 +78,12 @@ static double weights(void)
 }
 
 /* The surface is the ball's, with the ball's normal. Straight cells on a round ball lose 1.3 % of a
-   cell's width. Returns the number of compared pixels. */
+   cell's width, and flat triangles 5 %; a facet's normal is off by a cell's diagonal. Returns the number of
+   compared pixels. */
 static int compare_sphere(RayScene *scene, bool normals)
 {
+    static const double depths[] = {0.03, 0.06, 0.06}, slopes[] = {0.02, 0.02, 0.08};
+    const VolumeSurface surface = volume_def(&scene->def)->surface;
     int compared = 0;
     volume_def(&scene->def)->show = normals ? VOLUME_NORMALS : VOLUME_SHADED;
     RayPixel *pixels = ray_drawn(scene, true);
@@ -95,7 +99,7 @@ static int compare_sphere(RayScene *scene, bool normals)
         if (!meets || t[0] <= 0)
             continue;
         const double found = scene->frame.camera.near_plane / pixels[i].depth;
-        if (fabs(found - t[0]) > weights() * 0.03 * whole.cell / cosine)
+        if (fabs(found - t[0]) > weights() * depths[surface] * whole.cell / cosine)
             fail_msg("pixel %d %d: %g m, the sphere is at %g m", i % scene->width, i / scene->width, found,
                      t[0]);
         float outward[3], in_eye[3], to_eye[16];
@@ -105,7 +109,7 @@ static int compare_sphere(RayScene *scene, bool normals)
         for (int k = 0; k < 3; k++)
             in_eye[k] = to_eye[k] * outward[0] + to_eye[4 + k] * outward[1] + to_eye[8 + k] * outward[2];
         for (int k = 0; normals && k < 3; k++)
-            if (fabsf(2 * pixels[i].color[k] - 1 - in_eye[k]) > (float)weights() * 0.02F)
+            if (fabsf(2 * pixels[i].color[k] - 1 - in_eye[k]) > (float)(weights() * slopes[surface]))
                 fail_msg("pixel %d %d, axis %d: normal %g, the sphere's is %g", i % scene->width,
                          i / scene->width, k, 2 * pixels[i].color[k] - 1, in_eye[k]);
         compared++;
@@ -165,6 +169,137 @@ static void a_camera_in_the_volume(void **state)
         assert_true(pixels[i].depth > 0.99F && pixels[i].depth <= 1);
     free(pixels);
     scene_end(&scene);
+}
+
+/* Triangles from every side, from within, and in a tilted box. */
+static void the_mesh_of_a_ball(void **state)
+{
+    (void)state;
+    for (int surface = VOLUME_MESH; surface <= VOLUME_FACETS; surface++) {
+        RayScene scene = ball_scene((double[]){1.3, 1.1, 1.4}, (double[]){0.05, 0.48, 0}, 30);
+        volume_def(&scene.def)->surface = (VolumeSurface)surface;
+        assert_true(compare_sphere(&scene, false) > 2000);
+        assert_true(compare_sphere(&scene, true) > 2000);
+        scene.def.camera.from[0] = -1.3, scene.def.camera.from[1] = -0.3;
+        scene.state.box =
+            (BoxState){.position = {0.3, 0.1, -0.1}, .orientation = {0.1, 0.3, -0.2, sqrt(0.86)}};
+        assert_true(compare_sphere(&scene, false) > 1000);
+        scene_end(&scene);
+        scene = ball_scene((double[]){-0.4, 0.9, 0.42}, ball.centre, 70); /* in the volume, beside the ball */
+        volume_def(&scene.def)->surface = (VolumeSurface)surface;
+        assert_true(compare_sphere(&scene, false) > 1000);
+        scene_end(&scene);
+        scene = ball_scene(ball.centre, (double[]){1, 1, 1}, 60); /* in the ball */
+        volume_def(&scene.def)->surface = (VolumeSurface)surface;
+        RayPixel *pixels = ray_drawn(&scene, true);
+        for (int i = 0; i < scene.width * scene.height; i++)
+            assert_true(pixels[i].depth > 0.99F && pixels[i].depth <= 1);
+        free(pixels);
+        scene_end(&scene);
+    }
+}
+
+/* Noise: every case of a cube. 0 at the outermost voxels, where a mesh on the CPU ends by rule. */
+static double noise_at(const double at[3], const void *context)
+{
+    (void)context;
+    uint32_t bits = 0;
+    for (int k = 0; k < 3; k++) {
+        const int cell = (int)floor((at[k] - whole.corner[k]) / whole.cell);
+        if (cell == 0 || cell == whole.size[k] - 1)
+            return 0;
+        bits = (bits ^ (uint32_t)cell) * 2654435761U;
+        bits ^= bits >> 15;
+    }
+    return (bits >> 8) / (double)(1 << 24);
+}
+
+/* Of a known field the GPU lists as many triangles as the mesh has that `slosh export` writes. */
+static void as_many_triangles_as_the_exported_mesh(void **state)
+{
+    (void)state;
+    const size_t cells = volume_grid_cells(&whole);
+    float *values = calloc(cells, sizeof *values);
+    assert_non_null(values);
+    for (int field = 0; field < 2; field++) {
+        RayScene scene = ball_scene((double[]){1.3, 1.1, 1.4}, ball.centre, 30);
+        if (field == 1)
+            ray_volume(&scene, &whole, noise_at, NULL);
+        volume_def(&scene.def)->surface = VOLUME_MESH;
+        free(ray_drawn(&scene, true));
+        Error error;
+        IsoMesh mesh;
+        glGetTextureImage(scene.volume.field, 0, GL_RED, GL_FLOAT, (GLsizei)(cells * sizeof *values), values);
+        assert_true(isosurface(whole.size, values, 0.5F, &mesh, &error));
+        const size_t found =
+            surface_mesh_triangles(raycast_mesh(ray_caster(&(Subject){&scene.def, &scene.world})));
+        printf("%zu triangles\n", found);
+        if (found != mesh.triangle_count || found < 1000)
+            fail_msg("%zu triangles, %zu in the exported mesh", found, mesh.triangle_count);
+        isosurface_free(&mesh);
+        scene_end(&scene);
+    }
+    free(values);
+}
+
+static double pool_at(const double at[3], const void *context)
+{
+    (void)context;
+    return fmax(0, fmin(0.5 + (0.413 - at[1]) / 0.125, 1));
+}
+
+/* A pool between walls that lie anywhere between voxels is a block with sharp edges. */
+static void the_mesh_ends_at_walls(void **state)
+{
+    (void)state;
+    static const double low[3] = {-0.5, 0, -0.5}, high[3] = {0.5, 0.413, 0.5};
+    const VolumeGrid wide = {{72, 72, 72}, {-0.5 - 3.3 / 64, -3.7 / 64, -0.5 - 4.1 / 64}, 1.0 / 64};
+    RayScene scene = ray_scene((double[]){1.3, 1.1, 1.4}, (double[]){0, 0.2, 0}, 45);
+    int compared = 0;
+    ray_volume(&scene, &wide, pool_at, NULL);
+    for (int k = 0; k < 3; k++)
+        scene.volume.walled[k] = true;
+    volume_def(&scene.def)->surface = VOLUME_MESH;
+    RayPixel *pixels = ray_drawn(&scene, true);
+    for (int i = 0; i < scene.width * scene.height; i++) {
+        double from[3], to[3], begin = 0, end = INFINITY;
+        ray_of(&scene, i % scene.width, i / scene.width, from, to);
+        for (int k = 0; k < 3; k++) {
+            const double a = (low[k] - from[k]) / to[k], b = (high[k] - from[k]) / to[k];
+            begin = fmax(begin, fmin(a, b)), end = fmin(end, fmax(a, b));
+        }
+        if (fabs(end - begin) < 0.4 * wide.cell)
+            continue; /* at an edge: rays leave out a tenth of a spacing at glass */
+        const double found = pixels[i].depth > 0 ? scene.frame.camera.near_plane / pixels[i].depth : 0;
+        if (fabs(found - (end > begin ? begin : 0)) > 0.03 * wide.cell * weights())
+            fail_msg("pixel %d %d: %g m, the block is at %g", i % scene.width, i / scene.width, found,
+                     end > begin ? begin : 0);
+        compared += end > begin;
+    }
+    assert_true(compared > 2000);
+    free(pixels);
+    scene_end(&scene);
+}
+
+/* Facets have dark edges, a smooth mesh has none. */
+static void edges_of_facets(void **state)
+{
+    (void)state;
+    int dark[3] = {0};
+    for (int surface = VOLUME_RAYS; surface <= VOLUME_FACETS; surface++) {
+        RayScene scene = ball_scene((double[]){0.05, 0.48, 1.2}, ball.centre, 3);
+        volume_def(&scene.def)->surface = (VolumeSurface)surface;
+        RayPixel *pixels = ray_drawn(&scene, true);
+        float most = 0;
+        for (int i = 0; i < scene.width * scene.height; i++)
+            most = fmaxf(most, pixels[i].color[1]);
+        for (int i = 0; i < scene.width * scene.height; i++)
+            dark[surface] += pixels[i].color[1] < 0.5F * most;
+        free(pixels);
+        scene_end(&scene);
+    }
+    if (dark[0] > 0 || dark[1] > 0 || dark[2] < 300 || dark[2] > 160 * 120 / 3)
+        fail_msg("%d, %d and %d dark pixels", dark[0], dark[1], dark[2]);
 }
 
 static void expect_nothing(RayScene *scene)
@@ -504,6 +639,10 @@ int main(void)
         cmocka_unit_test_teardown(the_surface_in_a_tilted_box, no_gl_errors),
         cmocka_unit_test_teardown(a_camera_square_to_each_face, no_gl_errors),
         cmocka_unit_test_teardown(a_camera_in_the_volume, no_gl_errors),
+        cmocka_unit_test_teardown(the_mesh_of_a_ball, no_gl_errors),
+        cmocka_unit_test_teardown(as_many_triangles_as_the_exported_mesh, no_gl_errors),
+        cmocka_unit_test_teardown(the_mesh_ends_at_walls, no_gl_errors),
+        cmocka_unit_test_teardown(edges_of_facets, no_gl_errors),
         cmocka_unit_test_teardown(a_camera_that_looks_away, no_gl_errors),
         cmocka_unit_test_teardown(nothing_and_what_is_no_number, no_gl_errors),
         cmocka_unit_test_teardown(a_volume_full_of_fluid_has_no_holes, no_gl_errors),

@@ -23,6 +23,12 @@ VolumeOpacity volume_opacity(const ViewDef *def)
                : VOLUME_BY_OWN;
 }
 
+VolumeSurface volume_surface(const ViewDef *def)
+{
+    const VolumeDef *own = volume_def(def);
+    return own->raycast.look == RAYCAST_TRANSLUCENT || own->show == VOLUME_SLICE ? VOLUME_RAYS : own->surface;
+}
+
 bool volume_is_tinted(const Subject *subject)
 {
     const VolumeDef *def = volume_def(subject->def);
@@ -292,10 +298,13 @@ struct Raycast {
     BackgroundCopy background; /* for water: */
     BoxEdges edges;
     GLuint depths[DEPTHS], framebuffers[FRAMEBUFFERS];
+    SurfaceMesh mesh;       /* zero without a mesh */
+    GLuint facets;          /* of a mesh's triangles: normal and edge, RGBA16F; 0: none */
     GLuint found;           /* distance of each ray's hit along the eye's axis, m, R32F; 0: no hit */
     unsigned target_number; /* number of the target that gave the textures their size; 0: none */
     VolumeDrops drops;      /* for surfaces of a volume, else zero */
     RaycastLook look;
+    VolumeSurface surface;
     bool solids;
 };
 
@@ -305,6 +314,7 @@ void raycast_destroy(Raycast *raycast)
         return;
     volume_drops_destroy(&raycast->drops);
     bricks_destroy(&raycast->bricks);
+    surface_mesh_destroy(&raycast->mesh);
     background_copy_destroy(&raycast->background);
     box_edges_destroy(&raycast->edges);
     glDeleteProgram(raycast->program);
@@ -313,7 +323,7 @@ void raycast_destroy(Raycast *raycast)
     glDeleteTextures(DEPTHS, raycast->depths);
     color_table_destroy(&raycast->colors);
     transfer_destroy(&raycast->transfer);
-    glDeleteTextures(1, &raycast->found);
+    glDeleteTextures(2, (GLuint[]){raycast->found, raycast->facets});
     glDeleteFramebuffers(FRAMEBUFFERS, raycast->framebuffers);
     glDeleteVertexArrays(1, &raycast->screen);
     free(raycast);
@@ -337,11 +347,13 @@ static GLuint create_program(const Subject *subject, const char *field, Error *e
     const RaycastDef *cast = &volume_def(subject->def)->raycast;
     static const int shows[] = {
         [VOLUME_ENTRY] = 1, [VOLUME_EXIT] = 2, [VOLUME_LENGTH] = 3, [VOLUME_STEPS] = 4, [VOLUME_NORMALS] = 5};
-    char defines[320], translucent[96];
-    snprintf(defines, sizeof defines, "#define SHOW %d\n%s%s%s%s%s%s", shows[volume_def(subject->def)->show],
+    static const char *const surfaces[] = {"", "#define MESH 1\n", "#define MESH 1\n#define FACETS 1\n"};
+    char defines[360], translucent[96];
+    snprintf(defines, sizeof defines, "#define SHOW %d\n%s%s%s%s%s%s%s",
+             shows[volume_def(subject->def)->show],
              subject->world->solid_count > 0 ? "#define SOLIDS 1\n" : "", field,
              cast->look == RAYCAST_TRANSLUCENT ? translucent_defines(subject->def, translucent) : "",
-             cast->shadows ? "#define SHADOWS 1\n" : "",
+             surfaces[volume_surface(subject->def)], cast->shadows ? "#define SHADOWS 1\n" : "",
              volume_is_tinted(subject) ? "#define TINTED 1\n" : "",
              cast->look != RAYCAST_WATER     ? ""
              : raycast_is_full(subject->def) ? "#define WATER 1\n#define FLOOR_SHADOW 1\n#define WHOLE 1\n"
@@ -383,6 +395,7 @@ Raycast *raycast_create(const Subject *subject, const Voxelizer *voxelizer, Erro
     }
     raycast->solids = subject->world->solid_count > 0;
     raycast->look = volume_def(def)->raycast.look;
+    raycast->surface = volume_surface(def);
     glCreateVertexArrays(1, &raycast->screen);
     glCreateBuffers(1, &raycast->block);
     glObjectLabel(GL_BUFFER, raycast->block, -1, "raycast uniforms");
@@ -393,7 +406,10 @@ Raycast *raycast_create(const Subject *subject, const Voxelizer *voxelizer, Erro
         raycast->settle =
             program_create_pair("raycast depth", "common/screen.vert", "volume/raycast_depth.frag", error);
     if (raycast->settle && (raycast->look != RAYCAST_WATER || box_edges_create(&raycast->edges, error)) &&
-        bricks_create(&raycast->bricks, error) && create_drops(raycast, subject, voxelizer, error))
+        bricks_create(&raycast->bricks, error) &&
+        (raycast->surface == VOLUME_RAYS ||
+         surface_mesh_create(&raycast->mesh, raycast->surface == VOLUME_FACETS, error)) &&
+        create_drops(raycast, subject, voxelizer, error))
         return raycast;
     raycast_destroy(raycast);
     return NULL;
@@ -425,7 +441,7 @@ static void follow_target(Raycast *raycast, const Target *target)
     if (raycast->target_number == target->number)
         return;
     glDeleteTextures(DEPTHS, raycast->depths);
-    glDeleteTextures(1, &raycast->found);
+    glDeleteTextures(2, (GLuint[]){raycast->found, raycast->facets});
     glDeleteFramebuffers(FRAMEBUFFERS, raycast->framebuffers);
     memset(raycast->depths, 0, sizeof raycast->depths);
     for (int i = 0; i < DEPTHS; i++)
@@ -433,6 +449,11 @@ static void follow_target(Raycast *raycast, const Target *target)
     raycast->found = create_map(target, GL_R32F, "ray found");
     glCreateFramebuffers(FRAMEBUFFERS, raycast->framebuffers);
     attach_maps(raycast, FACES_IN, ENTRY, "ray entry");
+    if (raycast->surface == VOLUME_FACETS) {
+        raycast->facets = create_map(target, GL_RGBA16F, "facets");
+        glNamedFramebufferTexture(raycast->framebuffers[FACES_IN], GL_COLOR_ATTACHMENT0, raycast->facets, 0);
+        glNamedFramebufferDrawBuffer(raycast->framebuffers[FACES_IN], GL_COLOR_ATTACHMENT0);
+    }
     attach_maps(raycast, FACES_OUT, EXIT, "ray exit");
     attach_maps(raycast, MARCH, GATE, "ray march");
     glNamedFramebufferTexture(raycast->framebuffers[MARCH], GL_COLOR_ATTACHMENT0, target->color, 0);
@@ -543,7 +564,7 @@ static void bind_transfer(Raycast *raycast, const Volume *volume, const Particle
     block->opacity_scale = (float)(1 / (frame->curves.opacity[1] - frame->curves.opacity[0]));
 }
 
-/* The nearest front face and the farthest back face in each pixel. */
+/* The nearest front face and the farthest back face in each pixel. Rays to a mesh begin at the triangles. */
 static void draw_faces(Raycast *raycast, const Frame *frame)
 {
     static const float nothing[2] = {0, 1};
@@ -559,7 +580,10 @@ static void draw_faces(Raycast *raycast, const Frame *frame)
         glClearNamedFramebufferfv(raycast->framebuffers[i], GL_DEPTH, 0, &nothing[i]);
         glCullFace(i == FACES_IN ? GL_BACK : GL_FRONT);
         glDepthFunc(i == FACES_IN ? GL_GREATER : GL_LESS);
-        bricks_draw_faces(&raycast->bricks);
+        if (i == FACES_IN && raycast->surface != VOLUME_RAYS)
+            surface_mesh_draw(&raycast->mesh);
+        else
+            bricks_draw_faces(&raycast->bricks);
     }
     glDisable(GL_CULL_FACE);
 }
@@ -587,6 +611,8 @@ static void bind_maps(Raycast *raycast, const Frame *frame)
     color_table_bind(&raycast->colors, &frame->def->color_curve);
     glBindTextureUnit(ENTRY_UNIT, raycast->depths[ENTRY]);
     glBindTextureUnit(EXIT_UNIT, raycast->depths[EXIT]);
+    if (raycast->facets)
+        glBindTextureUnit(FACETS_UNIT, raycast->facets);
     glBindTextureUnit(TARGET_DEPTH_UNIT, raycast->solids ? target->depth : 0);
 }
 
@@ -668,6 +694,8 @@ static void cast_rays(Raycast *raycast, const Volume *volume, const ParticleBuff
     if (volume->tint[0])
         glBindTextures(GREEN_UNIT, 2, volume->tint);
     bricks_make(&raycast->bricks, volume);
+    if (raycast->surface != VOLUME_RAYS)
+        surface_mesh_make(&raycast->mesh, &volume->grid, raycast->bricks.size);
     draw_faces(raycast, frame);
     if (raycast->look == RAYCAST_WATER)
         look_through(raycast, frame);
@@ -705,4 +733,9 @@ void raycast_draw(Raycast *raycast, const Volume *volume, const Voxelizer *voxel
 RaycastMaps raycast_maps(const Raycast *raycast)
 {
     return (RaycastMaps){raycast->depths[ENTRY], raycast->depths[EXIT], raycast->bricks.map};
+}
+
+const SurfaceMesh *raycast_mesh(const Raycast *raycast)
+{
+    return &raycast->mesh;
 }

@@ -23,6 +23,8 @@ const char *const volume_show_names[] = {[VOLUME_SHADED] = "shaded",   [VOLUME_S
                                          [VOLUME_NORMALS] = "normals", NULL};
 const char *const volume_solids_names[] = {
     [VOLUME_SOLIDS_SURFACE] = "surface", [VOLUME_SOLIDS_VOXELS] = "voxels", NULL};
+const char *const volume_surface_names[] = {
+    [VOLUME_RAYS] = "rays", [VOLUME_MESH] = "mesh", [VOLUME_FACETS] = "facets", NULL};
 const char *const volume_axis_names[] = {"x", "y", "z", NULL};
 const char *const raycast_look_names[] = {
     [RAYCAST_OPAQUE] = "opaque", [RAYCAST_WATER] = "water", [RAYCAST_TRANSLUCENT] = "translucent", NULL};
@@ -54,7 +56,10 @@ const VolumeDef volume_usual = {
 
 /* The looks that alone read some keys. */
 static const KeyOwner translucent = {.key = "view.volume.look", .value = "translucent"},
-                      water = {.key = "view.volume.look", .value = "water"};
+                      water = {.key = "view.volume.look", .value = "water"},
+                      surfaces = {.key = "view.volume.look",
+                                  .unless = "translucent",
+                                  .need = "view.volume.look: opaque or water"};
 
 /* clang-format off */
 const Key volume_keys[] = {
@@ -68,6 +73,8 @@ const Key volume_keys[] = {
     CHOICE_OF("view.volume.show", L | KEY_INDEX | KEY_REBUILD, volume_show_names, AT(show), "a stage of the way to the picture"),
     CHOICE_OF("view.volume.solids", L | KEY_INDEX | KEY_REBUILD, volume_solids_names, AT(solids),
            "how solids are drawn: their surfaces as in other views, or voxels as the fluid's, by raycasting"),
+    CHOICE_OF("view.volume.surface", L | KEY_INDEX | KEY_REBUILD, volume_surface_names, AT(surface),
+           "of opaque and water: where rays meet the level, or a mesh of triangles by marching cubes, smooth or as facets with their edges", .owner = &surfaces),
     CHOICE_OF("view.volume.slice_axis", L | KEY_INDEX, volume_axis_names, AT(slice_axis),
            "what the slice shown lies across"),
     NUMBER("view.volume.slice", L, "", 0, 1, AT(slice), "where the slice is along that axis of the box"),
@@ -195,6 +202,10 @@ static bool check(const Subject *subject, const char **key, Error *error)
     const ParticleBuffers space = space_of(subject->world);
     const VolumeDef *def = volume_def(subject->def);
     VolumeGrid grid;
+    *key = "view.volume.surface";
+    if (volume_surface(subject->def) != VOLUME_RAYS && def->method == VOLUME_DIRECT)
+        return error_set(error,
+                         "a mesh is made of a volume, which view.volume.method: direct has not; use auto");
     *key = def->cell > 0 ? "view.volume.cell" : "view.volume.cells";
     return volume_grid_for(def, &space, &grid, error);
 }
@@ -204,6 +215,18 @@ static bool has_room(Voxelizer *voxelizer, const VolumeDef *def, const ParticleB
 {
     return voxelizer_fits(voxelizer, grid, space->support_radius, error) &&
            voxelizer_prepare(voxelizer, def, grid, error);
+}
+
+/* Far less than a quarter of the cubes are at a surface. */
+static bool has_room_for_mesh(const ViewDef *def, const VolumeGrid *grid, Error *error)
+{
+    const size_t room = 4 * surface_mesh_capacity(grid);
+    if (volume_surface(def) == VOLUME_RAYS || volume_grid_cells(grid) <= room)
+        return true;
+    return error_set(
+        error,
+        "the mesh of a volume of %zu cells needs a larger buffer than this driver has: at most %zu cells; use fewer or view.volume.surface: rays",
+        volume_grid_cells(grid), room);
 }
 
 /* Checks the volume of the whole box: the fluid's volume may grow to that size. */
@@ -217,6 +240,7 @@ static bool accepts(void *state, const Subject *subject, Error *error)
         return true;
     return volume_grid_for(def, &space, &grid, error) &&
            has_room(view->voxelizer, def, &space, &grid, error) &&
+           has_room_for_mesh(subject->def, &grid, error) &&
            (!view->tint[0] || has_room(view->tint[0], def, &space, &grid, error)) &&
            (!view->tint[1] || has_room(view->tint[1], def, &space, &grid, error)) &&
            (!view->opacity || has_room(view->opacity, def, &space, &grid, error));

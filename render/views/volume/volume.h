@@ -32,6 +32,10 @@ typedef enum VolumeShow {
 /* How the view draws the scene's solids. */
 typedef enum VolumeSolids { VOLUME_SOLIDS_SURFACE, VOLUME_SOLIDS_VOXELS } VolumeSolids;
 
+/* The surface of opaque and water: by rays to the field's level; or triangles by marching cubes, smooth or
+   as facets with edges. */
+typedef enum VolumeSurface { VOLUME_RAYS, VOLUME_MESH, VOLUME_FACETS } VolumeSurface;
+
 /* How the view volume casts its rays. */
 typedef enum RaycastLook { RAYCAST_OPAQUE, RAYCAST_WATER, RAYCAST_TRANSLUCENT } RaycastLook;
 
@@ -62,6 +66,7 @@ typedef struct MAY_ALIAS VolumeDef {
     VolumeMethod method;
     VolumeShow show;
     VolumeSolids solids;
+    VolumeSurface surface;
     int slice_axis; /* 0 to 2: x y z; axis perpendicular to the slice */
     double slice;   /* position along the axis, 0 .. 1 of the box */
     RaycastDef raycast;
@@ -73,6 +78,9 @@ extern const ViewKind view_volume;
    needs a second volume. */
 typedef enum VolumeOpacity { VOLUME_EVEN, VOLUME_BY_COLOR, VOLUME_BY_OWN } VolumeOpacity;
 VolumeOpacity volume_opacity(const ViewDef *def);
+
+/* VOLUME_RAYS where the look has no surface. */
+VolumeSurface volume_surface(const ViewDef *def);
 
 extern const ControlPreset volume_presets[];
 
@@ -89,7 +97,8 @@ extern const ViewGrade volume_grades[];
 /* Names of the enums, ended by NULL. */
 extern const char *const volume_bounds_names[],
     *const volume_method_names[], *const volume_show_names[], *const volume_solids_names[],
-                                                                  *const volume_axis_names[],
-                                                                      *const raycast_look_names[];
+                                                                  *const volume_surface_names[],
+                                                                      *const volume_axis_names[],
+                                                                          *const raycast_look_names[];
 
 #endif

@@ -202,6 +202,32 @@ enum { BRICK_CELLS = 8, BRICKS_ALONG = 64 };
 /* Returns the side of a grid's bricks in cells; `count`: bricks along each axis. */
 int bricks_count(const VolumeGrid *grid, int count[3]);
 
+/* The surface of a volume as triangles, made and drawn on the GPU by marching cubes, with the cases of the
+   exported mesh. The uniform block of shaders/volume/raycast_block.h, the field and the map of
+   bricks must be bound. After: W. Lorensen, H. Cline, 1987. */
+typedef struct SurfaceMesh {
+    unsigned list, draw;             /* programs; 0: no mesh */
+    unsigned cases, cubes, commands; /* buffers: the cases; listed cubes; a drawing command */
+    unsigned vertex_array;
+    size_t capacity; /* cubes */
+} SurfaceMesh;
+
+/* Returns false if a shader does not compile; call surface_mesh_destroy in either case. */
+bool surface_mesh_create(SurfaceMesh *mesh, bool facets, Error *error);
+void surface_mesh_destroy(SurfaceMesh *mesh); /* a zeroed struct is allowed */
+
+/* Room of a mesh on such a grid, in cubes; a surface goes through far fewer. */
+size_t surface_mesh_capacity(const VolumeGrid *grid);
+
+/* Lists the cubes with a surface; `bricks`: number of bricks along each axis. */
+void surface_mesh_make(SurfaceMesh *mesh, const VolumeGrid *grid, const int bricks[3]);
+
+/* Draws the triangles, counter-clockwise seen from outside: depth, and of facets normal and edge. */
+void surface_mesh_draw(const SurfaceMesh *mesh);
+
+/* For tests: waits, and counts the triangles of the last surface_mesh_make. */
+size_t surface_mesh_triangles(const SurfaceMesh *mesh);
+
 /* Raycasting of a volume. Rays start and end at rasterised faces, of the volume or of its occupied bricks,
    and march from front to back. After: "SPH coupled with volume rendering", SIBGRAPI 2010, section IV.B;
    Krüger and Westermann 2003.
@@ -236,6 +262,7 @@ typedef struct RaycastMaps {
 } RaycastMaps;
 
 RaycastMaps raycast_maps(const Raycast *raycast);
+const SurfaceMesh *raycast_mesh(const Raycast *raycast); /* for tests, too */
 
 /* Solids as voxels: a 3D texture of distances from the surface per solid, in the solid's frame, so that
    moving solids are not voxelised again. Drawn by rays through these textures. Drawn depths match the
