@@ -29,6 +29,14 @@ static void halve(int from, int length, int begin[2], int size[2])
     begin[1] = from + length - size[1];
 }
 
+/* Three panels below one another. */
+static void stack(int width, int height, PanelRect places[PANELS_MAX])
+{
+    const int each = (height - 2 * PANELS_LINE) / 3, begin[3] = {0, (height - each) / 2, height - each};
+    for (int i = 0; i < 3; i++)
+        places[i] = (PanelRect){0, begin[i], width, each};
+}
+
 bool panels_layout(int count, int width, int height, PanelRect places[PANELS_MAX])
 {
     int x[2], y[2], w[2], h[2];
@@ -41,6 +49,8 @@ bool panels_layout(int count, int width, int height, PanelRect places[PANELS_MAX
         const bool whole = count == 2 || (count == 3 && i == 0);
         places[i] = (PanelRect){x[column], whole ? 0 : y[row], w[column], whole ? height : h[row]};
     }
+    if (count == 3 && height > width)
+        stack(width, height, places);
     for (int i = 0; i < count; i++)
         if (places[i].width < 1 || places[i].height < 1)
             return false;

@@ -132,8 +132,9 @@ typedef struct PanelRect {
     int x, y, width, height;
 } PanelRect;
 
-/* Two panels are side by side, three are one at the left and two at the right, and four are two by two. Two
-   or four panels have equal sizes. Returns false if the picture is too small. */
+/* Two panels are side by side, three are one at the left and two at the right, and four are two by two. In a
+   picture higher than wide three panels are below one another. Two or four panels have equal sizes. Returns
+   false if the picture is too small. */
 bool panels_layout(int count, int width, int height, PanelRect places[PANELS_MAX]);
 
 /* Index of the panel at x, y, or of the nearest panel. */

@@ -44,13 +44,15 @@ static Schedule make_schedule(const Args *args, PicturesKind kind)
     return (Schedule){0, 1 / own->fps, (size_t)count};
 }
 
-/* Time shown in a panel. A panel beside a leading scene shows the time of the scene's state, as in the
-   window, once the scene has reached its state; before, the time of the picture. Interpolated pictures have
-   one time. */
+/* Time shown in a panel: the view's own, or the picture's. A panel beside a leading scene shows the time of
+   the scene's state, as in the window, once the scene has reached its state; before, the time of the picture.
+   Interpolated pictures have one time. */
 static double shown_at(const Render *render, int panel, double time)
 {
     const int leader = render->plan.leader_of[panel];
     const bool follows = leader >= 0 && leader != render->plan.world_of[panel] && !render->between;
+    if (render->plan.views[panel]->time >= 0)
+        return render->plan.views[panel]->time;
     return follows && session_reached(&render->sessions[leader], time)
                ? render->sessions[leader].run.info.time
                : time;
@@ -124,15 +126,26 @@ static bool open_shoot(Render *render, Error *error)
                                render->args->height, error);
 }
 
+/* The time due for a world, for a picture at `time`. */
+static double due_at(const Render *render, int world, double time)
+{
+    int panel = 0;
+    while (render->plan.world_of[panel] != world)
+        panel++;
+    return shown_at(render, panel, time);
+}
+
 /* Fraction of work done, by simulated time, as the solver takes most of the time. */
 static double fraction_done(const Render *render)
 {
     const Schedule *schedule = &render->schedule;
     const double last = schedule->first + schedule->interval * (double)(schedule->count - 1);
-    double simulated = 0;
-    for (int i = 0; i < render->plan.world_count; i++)
-        simulated += render->sessions[i].run.info.time / render->plan.world_count;
-    return last > 0 ? simulated / last : (double)render->figures.pictures / (double)schedule->count;
+    double simulated = 0, due = 0;
+    for (int i = 0; i < render->plan.world_count; i++) {
+        simulated += render->sessions[i].run.info.time;
+        due += due_at(render, i, last);
+    }
+    return due > 0 ? simulated / due : (double)render->figures.pictures / (double)schedule->count;
 }
 
 /* Puts the session's name before the reason; returns false. */
@@ -156,15 +169,6 @@ static bool step(Render *render, int world, double time, Error *error)
     render->figures.step_seconds[world] += 1e-3 * (wall_ms() - began);
     progress_update(&render->progress, fraction_done(render));
     return true;
-}
-
-/* The time that a world must reach. */
-static double due_at(const Render *render, int world, double time)
-{
-    int panel = 0;
-    while (render->plan.world_of[panel] != world)
-        panel++;
-    return shown_at(render, panel, time);
 }
 
 /* Index of the unfinished world furthest behind; -1: all have finished. */
@@ -258,7 +262,7 @@ static int report(Render *render, Error *error)
     const Schedule *schedule = &render->schedule;
     figures->stopped = figures->pictures < schedule->count;
     for (int i = 0; schedule->count == 1 && i < render->plan.world_count; i++)
-        figures->stopped |= !session_reached(&render->sessions[i], schedule->first);
+        figures->stopped |= !session_reached(&render->sessions[i], due_at(render, i, schedule->first));
     render_report(&render->plan, render->sessions, figures);
     if (render_write_json(&render->plan, render->sessions, &render->panel_pictures, figures, error))
         return figures->stopped ? EXIT_INTERRUPTED : 0;
@@ -269,12 +273,17 @@ static int report(Render *render, Error *error)
 /* Warns of surprises in the times of pictures. */
 static void tell_times(const Render *render)
 {
+    bool own = render->schedule.count == 1;
+    for (int i = 0; i < render->plan.panel_count; i++)
+        own &= render->plan.views[i]->time >= 0;
+    if (own && args_given(render->args, "--time"))
+        fprintf(stderr, "--time %.9g has no effect: each view shows a time of its own\n", render->args->time);
     for (int i = 0; i < render->plan.world_count; i++) {
         const Session *session = &render->sessions[i];
         if (options_of_render(render->args)->interpolate && session->run.scene.world.step_mode == STEP_CFL)
             fprintf(stderr, "%s--interpolate has no effect: in mode cfl states fall on the pictures' times\n",
                     session->prefix);
-        if (render->schedule.count > 1 && !render->between)
+        if (render->schedule.count > 1 && !render->between && due_at(render, i, 0) == 0)
             session_warn_uneven(session, "pictures", render->schedule.interval,
                                 render->schedule.interval * (render->schedule.count - 1));
     }
@@ -433,7 +442,7 @@ static const OptionRow options[] = {
     {"--fps", "N", OPTION_NUMBER, OWN(RenderOptions, fps), .initial = 30, .min = 0.001, .max = 1000, .help = "frames in a second (30)"},
     ROW_PICTURE_SIZE,
     {"--compare", "KEY=A,B,...", OPTION_SWEEP, AT(sweeps),
-     .help = "two or four settings side by side in one picture: particles, backend, method, view or any scene key; twice with two values each for all four"},
+     .help = "two or four settings side by side in one picture: particles, backend, method, view, time or any scene key; twice with two values each for all four"},
     ROWS_SCENE, ROW_VIEW, ROW_PRESET, ROWS_PROCESSOR, ROW_GPU, ROW_SHADERS, ROWS_DEVICE_MOVES, ROW_JSON, ROWS_END
 };
 /* clang-format on */

@@ -108,7 +108,7 @@ static void name_panel(const RenderPlan *plan, int panel, bool of_views, char na
     *name = 0;
     for (int i = 0; i < args->sweep_count; i++) {
         const char *key = args->sweeps[i].key;
-        if ((of_view(key) && !of_views) || has_own(plan->views[panel], key))
+        if ((of_view(key) && !of_views) || has_own(plan->views[panel], key) || strcmp(key, "view.time") == 0)
             continue;
         snprintf(words, sizeof words, "%s %s", sweep_typed(&args->sweeps[i]),
                  sweeps_value(args->sweeps, args->sweep_count, i, (size_t)plan->setting_of[panel]));

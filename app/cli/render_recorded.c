@@ -14,6 +14,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const size_t KEPT_BYTES = 256U << 20; /* for steps in memory */
@@ -21,6 +22,7 @@ static const size_t KEPT_BYTES = 256U << 20; /* for steps in memory */
 /* A shown run: the file itself, or a run beside the file (`file` of a view). */
 typedef struct ShownRun {
     char name[COMPARE_NAME_SIZE]; /* without the folder */
+    double time;                  /* time of the states, s; below 0: the picture's */
     Recorded recorded;            /* with its reader until there is a reel */
     unsigned attributes;
     Prefetch *prefetch;
@@ -61,8 +63,9 @@ static bool check_options(const Args *args, Error *error)
         return refuse(args, "--interpolate", "a file has no states between its steps", error);
     if (args->device)
         return refuse(args, "--device", "the box moves as it did", error);
-    if (args->sweep_count > 0)
-        return refuse(args, "--compare", "nothing is simulated; compare scenes", error);
+    if (args->sweep_count > 1 || (args->sweep_count == 1 && strcmp(args->sweeps[0].key, "view.time") != 0))
+        return refuse(args, "--compare", "nothing is simulated; compare scenes, or times: --compare time=A,B",
+                      error);
     return true;
 }
 
@@ -104,7 +107,7 @@ static bool find_run(FileRender *render, int panel, Notes *notes, Error *error)
 {
     const ViewDef *view = scene_view(&render->scene, panel);
     render->run_of[panel] = 0;
-    if (!view->file)
+    if (!compare_is_other(view))
         return recorded_has(&render->runs[0].recorded, view, error);
     for (int i = 0; i < panel; i++)
         if (compare_is_same(scene_view(&render->scene, i), view)) {
@@ -113,9 +116,36 @@ static bool find_run(FileRender *render, int panel, Notes *notes, Error *error)
         }
     ShownRun *run = &render->runs[render->run_count];
     compare_name(view, run->name);
+    run->time = view->time;
     if (!compare_open_file(render->args->scenes[0], view, panel, &run->recorded, notes, error))
         return false;
     render->run_of[panel] = render->run_count++;
+    return true;
+}
+
+/* The views at each time of --compare, a time a column. */
+static bool spread_times(FileRender *render, Error *error)
+{
+    const Args *args = render->args;
+    Scene *scene = &render->scene;
+    const int views = scene_view_count(scene), times = args->sweep_count ? args->sweeps[0].count : 1;
+    ViewDef of[PANELS_MAX];
+    if (args->sweep_count == 0)
+        return true;
+    if (times * views > PANELS_MAX)
+        return error_set(error,
+                         "slosh render: %d times with %d views each are %d panels; at most %d have room",
+                         times, views, times * views, PANELS_MAX);
+    for (int i = 0; i < times * views; i++) {
+        const char *value = args->sweeps[0].values[i % times];
+        char *end;
+        of[i] = *scene_view(scene, i / times);
+        of[i].time = of[i].time >= 0 ? of[i].time : strtod(value, &end);
+        if (*end || !(of[i].time >= 0 && of[i].time <= 1e6))
+            return error_set(error, "--compare time: %s is no time in seconds", value);
+    }
+    memcpy(scene->views, of, (size_t)(times * views) * sizeof *of);
+    scene->view_count = times * views;
     return true;
 }
 
@@ -141,9 +171,16 @@ static bool understand(FileRender *render, PicturesKind *kind, Error *error)
     render->run_count = 1;
     render->scene = recorded->scene;
     render->steps = recorded->steps;
-    if (!find_runs(render, &notes, error) || !choose_times(render, recorded, *kind, error))
+    own->time = -1;
+    if (!spread_times(render, error) || !find_runs(render, &notes, error) ||
+        !choose_times(render, recorded, *kind, error))
         return false;
     notes_print(&notes, stderr);
+    bool shown = *kind != PICTURES_PNG;
+    for (int i = 0; i < scene_view_count(&render->scene); i++)
+        shown |= render->run_of[i] == 0;
+    if (!shown && args_given(args, "--time"))
+        fprintf(stderr, "--time %.9g has no effect: each view shows another run or time\n", args->time);
     if (args_given(args, "--time") && options_of_render(args)->frames > 0)
         fprintf(stderr, "--time %.9g has no effect: --frames says how long it lasts\n", args->time);
     return true;
@@ -256,6 +293,11 @@ static PanelFacts facts_of(const ShownRun *run, bool own, double time)
                         .wanted = time};
 }
 
+static double time_of(const FileRender *render, int run, double time)
+{
+    return render->runs[run].time >= 0 ? render->runs[run].time : run == 0 ? time : render->runs[0].at.time;
+}
+
 /* Sets titles if there is more than one run. */
 static bool set_titles(const FileRender *render, Error *error)
 {
@@ -263,8 +305,8 @@ static bool set_titles(const FileRender *render, Error *error)
     PanelFacts facts[PANELS_MAX];
     bool ok = true;
     for (int i = 0; i < count; i++)
-        facts[i] =
-            facts_of(&render->runs[render->run_of[i]], render->run_of[i] == 0, render->runs[0].at.time);
+        facts[i] = facts_of(&render->runs[render->run_of[i]], render->run_of[i] == 0,
+                            time_of(render, render->run_of[i], render->runs[0].at.time));
     for (int i = 0; ok && render->run_count > 1 && i < count; i++) {
         Title title;
         panel_title(facts, count, i, "", &title);
@@ -279,7 +321,7 @@ static bool draw(FileRender *render, double time, Error *error)
     const ParticleBuffers *states[PANELS_MAX];
     bool fresh = false;
     for (int i = 0; i < render->run_count; i++) /* the runs beside use the time of the file's step */
-        if (!take(render, &render->runs[i], i == 0 ? time : render->runs[0].at.time, &fresh, error))
+        if (!take(render, &render->runs[i], time_of(render, i, time), &fresh, error))
             return false;
     if (!fresh)
         return true;

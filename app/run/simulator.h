@@ -44,6 +44,7 @@ typedef struct SimulatorSetup {
     void (*wake)(void); /* called on the solver's thread after each new state; may be NULL */
     bool paused;
     size_t history_bytes; /* memory for states to go back to (app/run/simulator_private.h); 0: no past */
+    double until;         /* of a follower: last time, s; 0: the leader's */
     bool follows; /* follows a leader: starts with the leader, and obeys only commands sent to the follower */
     int follower_count;
     Simulator *const *followers; /* at most SIMULATOR_FOLLOWERS; must outlive the leader */

@@ -165,6 +165,7 @@ struct Simulator {
     /* for the stepping thread only */
     bool here;    /* steps on the caller's thread: a backend is on a GPU, */
     bool on_gpu;  /* the simulator's own backend */
+    double until; /* of a follower: see SimulatorSetup */
     bool follows; /* steps on the leader's thread */
     int follower_count;
     Simulator *followers[SIMULATOR_FOLLOWERS];

@@ -34,10 +34,17 @@ static bool quits(Simulator *simulator)
     return quit;
 }
 
-/* Steps the follower's frames up to the leader's time. A failed follower stays at its time. */
-static void catch_up(Simulator *leader, Simulator *follower)
+/* The leader's time, or the follower's last time. */
+static double time_of(const Simulator *leader, const Simulator *follower)
 {
     const double time = leader->run.info.time;
+    return follower->until > 0 && follower->until < time ? follower->until : time;
+}
+
+/* Steps the follower's frames. A failed follower stays at its time. */
+static void catch_up(Simulator *leader, Simulator *follower)
+{
+    const double time = time_of(leader, follower);
     while (follower->run.world && !follower->status.failed && !quits(leader) &&
            follower->run.info.time < time - ROUNDING * follower->run.scene.world.dt) {
         simulator_frame_begin(follower);
@@ -129,7 +136,7 @@ static void simulator_lead_travel(Simulator *simulator)
         Simulator *follower = simulator->followers[i];
         if (!follower->run.world)
             continue;
-        const double time = simulator->run.info.time;
+        const double time = time_of(simulator, follower);
         pthread_mutex_lock(&follower->lock);
         follower->request = (TravelRequest){.pending = true, .after = true, .time = time};
         simulator_take_request(follower, follower->work);
@@ -352,6 +359,7 @@ Simulator *simulator_create(const SimulatorSetup *setup, Error *error)
     pthread_mutex_init(&simulator->lock, NULL);
     pthread_mutex_init(&simulator->showing, NULL);
     simulator->follows = setup->follows;
+    simulator->until = setup->until;
     simulator->follower_count = setup->follower_count;
     for (int i = 0; i < setup->follower_count; i++)
         simulator->followers[i] = setup->followers[i];

@@ -207,6 +207,15 @@ static bool read_recorded(PlayScene *open, const char *path, const SceneSettings
     return compare_read(&(CompareSetup){.scene = &open->scene}, &open->compared, notes, error);
 }
 
+static void tell_time(const Scene *scene, Notes *notes)
+{
+    if (scene->view_count == 0 && scene->view.time >= 0)
+        notes_add(
+            notes,
+            "view.time has no effect in the window, which goes through all times; an entry of views shows one beside: views: [{}, {time: %g}]",
+            scene->view.time);
+}
+
 bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *settings, Notes *notes,
                      Error *error)
 {
@@ -216,6 +225,7 @@ bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *set
           : recording_is_file(name) ? read_session
                                     : read_scene)(open, name, settings, notes, error))
         return false;
+    tell_time(&open->scene, notes);
     open->notes = *notes;
     return true;
 }

@@ -245,7 +245,7 @@ static bool is_of_view(const char *setting)
 static bool shows_others(const Scene *scene)
 {
     for (int i = 0; i < scene->view_count; i++)
-        if (!scene_shows(scene, &scene->views[i]))
+        if (!scene_shows(scene, &scene->views[i]) || scene->views[i].time >= 0)
             return true;
     return false;
 }

@@ -64,7 +64,7 @@ static void next_kind(ViewDef *view)
 static const ViewDef *last_own(const PlayViews *views, const Scene *scene)
 {
     for (int i = views->known; i-- > 0;)
-        if (scene_shows(scene, &scene->views[i]))
+        if (scene_shows(scene, &scene->views[i]) && scene->views[i].time < 0)
             return &scene->views[i];
     return &scene->views[views->known - 1];
 }
@@ -78,6 +78,7 @@ static void make(PlayViews *views, Scene *scene, int count)
         next_kind(&scene->views[views->known]);
         scene->views[views->known].file = NULL;
         scene->views[views->known].set = NULL;
+        scene->views[views->known].time = -1;
     }
 }
 

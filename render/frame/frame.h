@@ -108,6 +108,7 @@ typedef struct ViewDef {
     /* For one of several views: the source of its states; none: the scene. Not read in render. */
     const char *file; /* a recorded run; NULL: none */
     const char *set;  /* the scene with these settings changed: KEY_SETTINGS; NULL: none */
+    double time;      /* of the states shown, s; below 0: the scene's */
 } ViewDef;
 
 /* What to show, and how. */

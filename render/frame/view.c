@@ -32,7 +32,8 @@ ViewDef view_def_shared(void)
                      .camera_auto = true,
                      .camera = {.fov_deg = 32},
                      .background = {0.25, 0.285, 0.33},
-                     .resolution = 1};
+                     .resolution = 1,
+                     .time = -1};
 }
 
 static uint64_t curve_bit(const ScalarCurve *curve)
@@ -145,6 +146,7 @@ const Key view_frame_keys[] = {
     NUMBER("view.resolution", L, "", 0.05, 2, AT(resolution), "pixels drawn for a pixel shown, each way: below 1 is faster, and the box's edges, words and the legend keep all of them; 2: four samples of each pixel, for smooth outlines, fewer where more than 16 million would be drawn; where it is 1, best has 2, of filtered splats 1.5, and a draft of clear fluid 0.5"),
     FILE_TEXT("view.file", 0, AT(file), "none", "of an entry of views: it shows a recorded run (.h5part, found from the scene's folder) at the scene's time"),
     SETTINGS("view.set", KEY_POINTER, VIEW_SET_SIZE, AT(set), "none", "of an entry of views: it shows the scene with these settings, {solver.step.dt: 0.001} and so on, simulated beside it"),
+    NUMBER("view.time", 0, "s", -1, 1e6, AT(time), "the state shown is the first at or after this simulated time, whatever time the picture has; below 0: that of the picture"),
     KEYS_END,
 };
 /* clang-format on */

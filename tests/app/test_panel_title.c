@@ -59,6 +59,19 @@ static void says_where_a_file_has_no_state(void **state)
     assert_title(facts, 2, 0, "own", "10 particles");
 }
 
+/* A simulation on the way to the time that its panel shows. */
+static void says_where_its_time_is_not_yet(void **state)
+{
+    (void)state;
+    PanelFacts facts[] = {facts_of("", "", &one), facts_of("time 0.8 s", "", &one)};
+    facts[1].wanted = 0.8;
+    facts[1].time = 0.3;
+    assert_title(facts, 2, 1, "time 0.8 s", "now at 0.3 s");
+    facts[1].time = 0.804;
+    assert_title(facts, 2, 1, "time 0.8 s", "");
+    assert_title(facts, 2, 0, "own", "");
+}
+
 static void says_where_a_solver_stopped(void **state)
 {
     (void)state;
@@ -74,6 +87,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(says_what_differs_and_its_name_does_not_say),
         cmocka_unit_test(says_where_a_file_has_no_state),
+        cmocka_unit_test(says_where_its_time_is_not_yet),
         cmocka_unit_test(says_where_a_solver_stopped),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -199,6 +199,30 @@ class Beside(CompareTest):
             _, result = self.shoot(views, *more, time='0.0495')
             numpy.testing.assert_allclose([p['time'] for p in result['panels']], times, rtol=1e-6)
 
+    def test_other_times(self):
+        """A state at its time, whatever time the picture has, of a scene and of a recorded run; in a film that panel stands still."""
+        for source, more in (('scene.yaml', ()), ('run.h5part', ('--set', 'solver.step.dt=0.005'))):
+            self.record(*more)
+            _, result = self.shoot('[{}, {time: 0.05}, {time: 0.15}]', source=source, time='0.1')
+            if source == 'scene.yaml':
+                self.assertEqual([p['setting'] for p in result['panels']], ['', 'time 0.05 s', 'time 0.15 s'])
+                for panel, time in zip(result['panels'], (0.1, 0.05, 0.15)):
+                    self.assertTrue(time - 1e-9 <= panel['time'] < time + 0.01, panel['time'])
+            self.assert_alone({'place': [252, 0, 249, 199]}, source, '0.05')
+            self.assert_alone({'place': [252, 201, 249, 199]}, source, '0.15')
+            code, said = self.slosh('render', source, '-o', 'out.png', '--size', '501x400', '--time', '0.2', '--compare', 'time=0.05,0.15',
+                                    *self.PLAIN)
+            self.assertEqual((code, '--time 0.2 has no effect: each view shows' in said), (0, True), said)
+            self.assert_alone({'place': [252, 0, 249, 400]}, source, '0.15')
+        code, said = self.slosh('render', 'run.h5part', '-o', 'film', '--size', '501x400', '--frames', '3', '--fps', '20', '--set',
+                                'views=[{}, {time: 0.1}]', *self.PLAIN)
+        self.assertEqual(code, 0, said)
+        frames = [self.picture(f'film/frame_{k:05}.png')[TITLE:] for k in range(3)]
+        numpy.testing.assert_array_equal(frames[0][:, 252:], frames[2][:, 252:])
+        self.assertTrue((frames[0][:, :249] != frames[2][:, :249]).any())
+        code, said = self.slosh('render', 'run.h5part', '-o', 'out.png', '--compare', 'time=0.1,soon')
+        self.assertEqual((code, '--compare time: soon is no time in seconds' in said), (2, True), said)
+
     def test_an_entrys_own_setting_is_not_compared(self):
         """Its value holds in each setting: one world, one name, the same picture."""
         said, result = self.compare('--compare', 'gravity=[0, -9, 0],[0, -3, 0]', '--set',

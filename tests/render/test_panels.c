@@ -14,9 +14,9 @@ enum { WIDTH = 401, HEIGHT = 301 };
 static void places_share_the_picture(void **state)
 {
     (void)state;
-    static const int sizes[][2] = {{640, 480}, {641, 481}, {7, 5}, {4, 4}};
+    static const int sizes[][2] = {{640, 480}, {641, 481}, {7, 5}, {4, 4}, {480, 641}};
     PanelRect p[PANELS_MAX];
-    for (int s = 0; s < 4; s++)
+    for (int s = 0; s < 5; s++)
         for (int count = 1; count <= PANELS_MAX; count++) {
             const int width = sizes[s][0], height = sizes[s][1];
             int pixels = 0;
@@ -34,6 +34,7 @@ static void places_share_the_picture(void **state)
             }
             assert_true(count > 1 ? pixels < width * height : pixels == width * height);
         }
+    assert_true(panels_layout(3, 480, 641, p) && p[1].x == 0 && p[2].x == 0 && p[0].width == 480);
     assert_false(panels_layout(2, 3, 100, p)); /* a line and one column of pixels */
     assert_true(panels_layout(2, 4, 1, p));
     assert_false(panels_layout(4, 100, 3, p));

@@ -132,9 +132,12 @@ static bool parse_setting(const ArgsParser *parser, const OptionRow *option, con
     return true;
 }
 
-/* Full path of a sweep key: "backend" stands for "solver.backend", as in --backend of any command. */
-static const char *sweep_key(CommandList commands, const char *name)
+/* Full path of a sweep key: "backend" stands for "solver.backend", as in --backend of any command; side by
+   side, "time" is the time of the shown state. */
+static const char *sweep_key(CommandList commands, const OptionRow *sweep, const char *name)
 {
+    if (strcmp(sweep->name, "--compare") == 0 && strcmp(name, "time") == 0)
+        return "view.time";
     for (CommandList at = commands; *at; at++)
         for (const OptionRow *option = (*at)->options; option->name; option++)
             if (option->path && strcmp(option->name + 2, name) == 0)
@@ -162,7 +165,7 @@ static bool parse_sweep(const ArgsParser *parser, const OptionRow *option, const
         return fail(parser, "more than %d times %s; use fewer", ARGS_SWEEPS_MAX, option->name);
     Sweep *sweep = &args->sweeps[args->sweep_count++];
     const char *name = keep(args, text, (size_t)(equals - text));
-    sweep->key = name ? sweep_key(parser->commands, name) : NULL;
+    sweep->key = name ? sweep_key(parser->commands, option, name) : NULL;
     sweep->typed = name;
     for (const char *at = equals; *at; at += value_length(at)) {
         at++; /* the '=' or a comma */

@@ -80,6 +80,8 @@ static void add_end(Title *title, const PanelFacts *facts)
         snprintf(words, sizeof words, "ends at %.4g s", facts->last);
     else if (facts->recorded && facts->wanted < facts->first - slack)
         snprintf(words, sizeof words, "begins at %.4g s", facts->first);
+    else if (!facts->recorded && facts->time < facts->wanted - slack)
+        snprintf(words, sizeof words, "now at %.4g s", facts->time);
     add(title, words);
 }
 
@@ -104,13 +106,14 @@ void panel_title(const PanelFacts facts[], int count, int panel, const char *unn
 
 bool compare_is_other(const ViewDef *view)
 {
-    return view->file || view->set;
+    return view->file || view->set || view->time >= 0;
 }
 
 bool compare_is_same(const ViewDef *a, const ViewDef *b)
 {
     return strcmp(text_or_empty(a->file), text_or_empty(b->file)) == 0 &&
-           strcmp(text_or_empty(a->set), text_or_empty(b->set)) == 0;
+           strcmp(text_or_empty(a->set), text_or_empty(b->set)) == 0 &&
+           (a->time == b->time || (a->time < 0 && b->time < 0));
 }
 
 static const char *name_of(const char *path)
@@ -122,7 +125,11 @@ static const char *name_of(const char *path)
 void compare_name(const ViewDef *view, char words[COMPARE_NAME_SIZE])
 {
     size_t used = 0;
-    snprintf(words, COMPARE_NAME_SIZE, "%.150s", name_of(text_or_empty(view->file)));
+    snprintf(words, COMPARE_NAME_SIZE, "%.120s", name_of(text_or_empty(view->file)));
+    used = strlen(words);
+    if (view->time >= 0)
+        used += (size_t)snprintf(words + used, COMPARE_NAME_SIZE - used, "%stime %.6g s", used ? ", " : "",
+                                 view->time);
     for (const char *line = text_or_empty(view->set); *line && used < COMPARE_NAME_SIZE;) {
         const int length = (int)strcspn(line, "\n"), path = (int)strcspn(line, "=");
         used += (size_t)snprintf(words + used, COMPARE_NAME_SIZE - used, "%s%.*s %.*s", used ? ", " : "",
@@ -196,13 +203,14 @@ bool compare_open_file(const char *scene, const ViewDef *view, int entry, Record
 {
     char path[1200];
     Notes own = {.count = 0};
-    if (!scene_relative_path(scene, view->file, path, error))
+    const char *name = view->file ? view->file : name_of(scene);
+    if (!scene_relative_path(scene, name, path, error))
         return blame(entry, error);
-    if (is_elsewhere(path, view->file))
+    if (is_elsewhere(path, name))
         return error_set(error,
                          "views[%d].file: %.300s is not there: it is found from the scene's folder, not from "
                          "the present one, where there is a %.300s; write its whole path",
-                         entry, path, view->file);
+                         entry, path, name);
     if (!recorded_is_file(path))
         return error_set(error,
                          "views[%d].file: %.300s is no recorded run; name one of `slosh run`, *.h5part",
@@ -222,6 +230,7 @@ static const size_t KEPT_BYTES = 256U << 20; /* for steps of a run in memory */
 /* One companion. */
 typedef struct ComparedRun {
     ViewDef view; /* identifies the companion */
+    bool is_run;  /* from a file */
     char words[COMPARE_NAME_SIZE];
     Scene scene; /* with the view's settings, or from the file */
     Recording recording;
@@ -246,7 +255,7 @@ struct CompareRuns {
 
 static bool is_run(const ComparedRun *member)
 {
-    return member->view.file != NULL;
+    return member->is_run;
 }
 
 /* ---- reading ---- */
@@ -273,6 +282,7 @@ static bool read_settings(const CompareSetup *setup, int entry, ComparedRun *mem
 static bool read_member(const CompareSetup *setup, int entry, ComparedRun *member, Notes *notes, Error *error)
 {
     compare_name(&member->view, member->words);
+    member->is_run = member->view.file || !setup->text;
     if (!is_run(member))
         return read_settings(setup, entry, member, notes, error);
     if (!compare_open_file(setup->scene->path, &member->view, entry, &member->recorded, notes, error))
@@ -366,6 +376,7 @@ static bool start_simulator(ComparedRun *member, const SimulatorSetup *how, Erro
     setup.upload = member->upload;
     setup.timer = NULL;
     setup.follows = true;
+    setup.until = member->view.time < 0 ? 0 : fmax(member->view.time, 1e-9);
     member->simulator = simulator_create(&setup, error);
     return member->simulator != NULL;
 }
@@ -457,6 +468,7 @@ bool compare_has_new(CompareRuns *compared)
 static void take_run(ComparedRun *member, double time)
 {
     Error error = {{0}};
+    time = member->view.time >= 0 ? member->view.time : time;
     if (time != member->asked) {
         member->lead = time > member->asked ? time - member->asked : 0;
         member->asked = time;
@@ -521,7 +533,7 @@ void compare_facts(const CompareRuns *compared, const ViewDef *view, PanelFacts 
                           .time = member->state.time,
                           .first = member->at.first,
                           .last = member->at.last,
-                          .wanted = member->asked};
+                          .wanted = is_run(member) ? member->asked : member->view.time};
 }
 
 bool compare_has_attributes(const CompareRuns *compared, const ViewDef *view, Error *error)

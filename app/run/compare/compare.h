@@ -33,7 +33,7 @@ typedef struct PanelFacts {
     bool failed;        /* the simulation has stopped */
     double time;        /* of the shown state, s */
     double first, last; /* of a file: times of first and last step, s */
-    double wanted;      /* of a file: requested time, s */
+    double wanted;      /* requested time, s */
 } PanelFacts;
 
 /* Makes the title of one of `count` panels: its name, and below the differences between panels; for a file
@@ -43,8 +43,8 @@ void panel_title(const PanelFacts facts[], int count, int panel, const char *unn
 /* Views beside the scene: a recorded run, or the scene with settings of its own (`file` and `set` of an
    entry of `views`). */
 
-/* compare_is_other: true if the view shows something other than the scene. compare_is_same: true if two views
-   show the same. */
+/* compare_is_other: true if the view shows something other than the scene at its time. compare_is_same: true
+   if two views show the same. */
 bool compare_is_other(const ViewDef *view);
 bool compare_is_same(const ViewDef *a, const ViewDef *b);
 
@@ -77,8 +77,9 @@ unsigned compare_simulated_attributes(const WorldDef *def);
 /* Greatest count of particles of a simulation, including poured particles. */
 size_t compare_simulated_particles(const WorldDef *def);
 
-/* Opens the view's file, relative to the folder of the scene `scene`; notes on the file go into `notes`.
-   Returns false with the reason: as recorded_open, or the file lacks attributes read by the view. */
+/* Opens the view's file, relative to the folder of the scene `scene`, or without one `scene` itself, a
+   recorded run; notes on the file go into `notes`. Returns false with the reason: as recorded_open, or the
+   file lacks attributes read by the view. */
 bool compare_open_file(const char *scene, const ViewDef *view, int entry, Recorded *out, Notes *notes,
                        Error *error);
 
@@ -170,7 +171,7 @@ typedef struct PicturePanel {
     const Session *session;
     Recorded *recorded;   /* instead of a session; its reader is taken over, the rest stays */
     const Session *scene; /* session giving the time for a run; NULL: the picture's time */
-    const ViewDef *view;  /* stays valid; pictures follow its changes */
+    const ViewDef *view;  /* stays valid, with the time of the states, if any; pictures follow its changes */
 } PicturePanel;
 
 /* A session or run: its state on the GPU, for all its panels. */
@@ -182,6 +183,7 @@ typedef struct PictureSource {
     PrefetchStatus at; /* in the last picture */
     PrefetchWatch prefetch_watch;
     unsigned attributes; /* read by its views */
+    double time;         /* of the states, s; below 0: the picture's */
     Upload *upload;      /* NULL: the world's particles are on the GPU */
     size_t capacity;     /* capacity of both, particles; a recorded session may raise the world's count */
     Upload *upload_interpolated;      /* for interpolated states; NULL: none yet */
@@ -226,7 +228,8 @@ bool panel_pictures_watch(PanelPictures *pictures, const Session *session, doubl
 bool panel_pictures_take(PanelPictures *pictures, double time, Error *error);
 bool panel_pictures_draw(PanelPictures *pictures, Error *error);
 
-/* Returns the time between the earliest and the latest state of the last picture, s; runs are ignored. */
+/* Returns the time between the earliest and the latest state of the last picture, s; runs, and views with a
+   time of their own, are ignored. */
 double panel_pictures_spread(const PanelPictures *pictures);
 
 /* Returns how late the latest state of the last picture is for a picture at `time` (s), s; runs are ignored.

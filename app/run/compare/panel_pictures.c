@@ -49,6 +49,7 @@ static int source_find(PanelPictures *pictures, const Session *session, Recorded
         pictures->source_count++;
         pictures->sources[at] = (PictureSource){.session = session,
                                                 .recorded = recorded,
+                                                .time = -1,
                                                 .every = INFINITY,
                                                 .watched = -INFINITY,
                                                 .prefetch_watch = {.watched = -INFINITY}};
@@ -118,8 +119,10 @@ bool panel_pictures_open(PanelPictures *pictures, const PicturePanel panels[], i
         const PicturePanel *panel = &panels[i];
         const int known = pictures->source_count;
         pictures->source_of[i] = source_find(pictures, panel->session, panel->recorded);
-        if (pictures->source_of[i] == known)
+        if (pictures->source_of[i] == known) {
             pictures->sources[known].scene = panel->scene;
+            pictures->sources[known].time = panel->view->time;
+        }
         source_serve(&pictures->sources[pictures->source_of[i]], panel->view);
         pictures->asked[i] = panel->view;
         memcpy(&pictures->said[i], panel->view, sizeof pictures->said[i]);
@@ -290,13 +293,21 @@ static bool take_recorded(const PanelPictures *pictures, PictureSource *source, 
            error_set(error, "%s: Step#%zu is not shown", source->recorded->path, source->at.index);
 }
 
+/* The time of a source in a picture at `time`. */
+static double time_of(const PictureSource *source, double time)
+{
+    return source->time >= 0                   ? source->time
+           : !source->session && source->scene ? source->scene->run.info.time
+                                               : time;
+}
+
 /* Takes the state of a picture at `time`. `fresh` is set if the state differs from the last picture's. */
 static bool take(const PanelPictures *pictures, PictureSource *source, double time, bool *fresh, Error *error)
 {
     const Session *session = source->session;
+    time = time_of(source, time);
     if (!session)
-        return take_recorded(pictures, source, source->scene ? source->scene->run.info.time : time, fresh,
-                             error);
+        return take_recorded(pictures, source, time, fresh, error);
     const bool between =
         source->before.state.count > 0 && session->run.info.time > time + 1e-6 * session->run.scene.world.dt;
     if (!between && source->taken && !source->is_interpolated && source->state.step == session->run.info.step)
@@ -352,12 +363,12 @@ double panel_pictures_spread(const PanelPictures *pictures)
 {
     double first = INFINITY, last = -INFINITY;
     for (int i = 0; i < pictures->source_count; i++) {
-        if (!pictures->sources[i].session)
+        if (!pictures->sources[i].session || pictures->sources[i].time >= 0)
             continue;
         first = fmin(first, pictures->sources[i].state.time);
         last = fmax(last, pictures->sources[i].state.time);
     }
-    return last - first;
+    return first < last ? last - first : 0;
 }
 
 double panel_pictures_late(const PanelPictures *pictures, double time)
@@ -365,7 +376,7 @@ double panel_pictures_late(const PanelPictures *pictures, double time)
     double late = 0;
     for (int i = 0; i < pictures->source_count; i++)
         if (pictures->sources[i].session)
-            late = fmax(late, pictures->sources[i].state.time - time);
+            late = fmax(late, pictures->sources[i].state.time - time_of(&pictures->sources[i], time));
     return late;
 }
 
