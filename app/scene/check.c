@@ -6,6 +6,7 @@
 #include "sim/gpu/particle_buffers.h"
 #include "sim/solids/solid.h"
 #include "sim/start/start.h"
+#include "sim/step/backend.h"
 #include "slosh/state.h"
 
 #include <math.h>
@@ -326,6 +327,11 @@ static bool check_scalars(const SceneCheck *check, const char *view, const ViewD
             snprintf(has + strlen(has), sizeof has - strlen(has), "%s%s", *has ? ", " : "",
                      scalar_name((Scalar)s));
     snprintf(path, sizeof path, "%s.%s", view, key_of(def, lacks));
+    for (const Backend *const *backend = backend_list(); *backend; backend++)
+        if ((*backend)->scalars & PARTICLE_SCALAR(lacks))
+            return FAIL(check, path,
+                        "only particles of backend %s have %s; set solver.backend or leave it out",
+                        (*backend)->name, scalar_name(lacks));
     return FAIL(check, path, "particles of this scene have no %s; solver.method %s keeps %s",
                 scalar_name(lacks), world->method, *has ? has : "nothing of its own");
 }

@@ -89,7 +89,7 @@ void scene_keys_print(FILE *file)
     fprintf(file, "| key | type | unit | range | default | live | meaning |\n");
     fprintf(file, "| --- | --- | --- | --- | --- | --- | --- |\n");
     for (int i = 0; i < count; i++) {
-        char range[512], help[512];
+        char range[1024], help[512];
         key_help_text(&keys[i], help, sizeof help);
         key_range_text(&keys[i], range, sizeof range);
         fprintf(file, "| `%s` | %s%s | %s | %s%s |", keys[i].path, types[keys[i].type],

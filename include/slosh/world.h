@@ -62,6 +62,10 @@ typedef uint64_t ParticleId;
     X(ACCELERATION_Y, "acceleration_y", "m/s2")                                                              \
     X(ACCELERATION_Z, "acceleration_z", "m/s2")
 
+/* Of some backends alone (`scalars` of Backend), in no file. `lost`: 1 of a particle without a place in
+   the grid of backend fragment, else 0. X(ENUM, name, unit) */
+#define BACKEND_SCALAR_LIST(X) X(LOST, "lost", "")
+
 /* In every state, but not as a column: include/slosh/state.h. X(ENUM, name, unit) */
 #define BIRTH_SCALAR_LIST(X) X(BORN, "born", "s")
 
@@ -77,6 +81,8 @@ typedef uint64_t ParticleId;
     X(VORTICITY_Y, "vorticity_y", "1/s")                                                                     \
     X(VORTICITY_Z, "vorticity_z", "1/s")                                                                     \
     X(DIVERGENCE, "divergence", "1/s")                                                                       \
+    X(STRAIN_RATE, "strain_rate", "1/s")                                                                     \
+    X(EDDY_VISCOSITY, "eddy_viscosity", "m2/s")                                                              \
     X(TRAPPED_AIR, "trapped_air", "m/s")                                                                     \
     X(PRESSURE_GRADIENT, "pressure_gradient", "Pa/m")                                                        \
     X(PRESSURE_GRADIENT_X, "pressure_gradient_x", "Pa/m")                                                    \
@@ -88,6 +94,7 @@ typedef uint64_t ParticleId;
 #define SCALAR_LIST(X)                                                                                       \
     STATE_SCALAR_LIST(X)                                                                                     \
     OWN_SCALAR_LIST(X)                                                                                       \
+    BACKEND_SCALAR_LIST(X)                                                                                   \
     BIRTH_SCALAR_LIST(X)                                                                                     \
     DERIVED_SCALAR_LIST(X)
 
@@ -98,8 +105,8 @@ typedef enum Scalar {
         SCALAR_COUNT
 } Scalar;
 
-/* Order: scalars of a state, then OWN_SCALAR_LIST, then the birth time. */
-enum { SCALAR_OWN = SCALAR_ID + 1, SCALAR_STATE_COUNT = SCALAR_BORN + 1 };
+/* Order: scalars of a state, then OWN_SCALAR_LIST, BACKEND_SCALAR_LIST, the birth time. */
+enum { SCALAR_OWN = SCALAR_ID + 1, SCALAR_OWN_END = SCALAR_LOST, SCALAR_STATE_COUNT = SCALAR_BORN + 1 };
 
 /* In the order of Scalar, ended by a NULL name. */
 typedef struct ScalarRow {

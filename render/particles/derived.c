@@ -50,6 +50,8 @@ static const DerivedFormula scalar_recipes[SCALAR_COUNT] = {
     [SCALAR_VORTICITY_Y] = {"curl(gradient).y", PARTICLE_VELOCITY, NOTHING, true},
     [SCALAR_VORTICITY_Z] = {"curl(gradient).z", PARTICLE_VELOCITY, NOTHING, true},
     [SCALAR_DIVERGENCE] = {"gradient[0].x + gradient[1].y + gradient[2].z", PARTICLE_VELOCITY, NOTHING, true},
+    [SCALAR_STRAIN_RATE] = {"strain_rate(gradient)", PARTICLE_VELOCITY, NOTHING, true},
+    [SCALAR_EDDY_VISCOSITY] = {"eddy_viscosity(gradient, i)", PARTICLE_VELOCITY, NOTHING, true},
     [SCALAR_TRAPPED_AIR] = {"trapped", PARTICLE_VELOCITY, NOTHING, true, .meets = true},
     [SCALAR_PRESSURE_GRADIENT] = {"length(slope)", 0, SCALAR_PRESSURE, true},
     [SCALAR_PRESSURE_GRADIENT_X] = {"slope.x", 0, SCALAR_PRESSURE, true},

@@ -163,6 +163,22 @@ vec3 curl(mat3 gradient) // gradient[b][a] = d v_a / d x_b
 {
     return vec3(gradient[1].z - gradient[2].y, gradient[2].x - gradient[0].z, gradient[0].y - gradient[1].x);
 }
+
+// |S| = sqrt(2 S : S), S the symmetric part of the gradient.
+float strain_rate(mat3 gradient)
+{
+    mat3 s = 0.5 * (gradient + transpose(gradient));
+    return sqrt(2.0 * (dot(s[0], s[0]) + dot(s[1], s[1]) + dot(s[2], s[2])));
+}
+
+// Of eddies finer than particles: (C width)^2 |S|. After: J. Smagorinsky 1963, with the constant and the width, a particle's, of
+// R. Dalrymple, B. Rogers, Numerical modeling of water waves with the SPH method, 2006.
+float eddy_viscosity(mat3 gradient, uint i)
+{
+    const float constant = 0.12;
+    float volume = position_words[i * position_stride + 3u], width = two_dimensions != 0u ? sqrt(volume) : pow(volume, 1.0 / 3.0);
+    return constant * constant * width * width * strain_rate(gradient);
+}
 #endif
 
 // Never negative: between two states, a particle of the later state may be shown. NaN stays NaN.

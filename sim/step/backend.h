@@ -211,6 +211,7 @@ typedef struct Backend {
     /* Steps run asynchronously in a GL context, which must be current for every use of a world; `watch` is
        called once per frame. */
     bool gpu;
+    uint32_t scalars; /* of BACKEND_SCALAR_LIST: those that the backend shares with views, a bit each */
     int *(*threads)(const WorldDef *def); /* the def's number of threads; NULL: not chosen by a def */
     /* True if the backend supports everything that the def names; false with the reason. Needs no context.
        NULL: supports all. */

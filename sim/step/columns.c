@@ -72,7 +72,8 @@ ColumnRows columns_saved(const WorldDef *def)
 uint32_t columns_scalars(const WorldDef *def)
 {
     const ColumnRows saved = columns_saved(def);
-    uint32_t scalars = 0;
+    const Backend *backend = backend_find(def->backend);
+    uint32_t scalars = backend ? backend->scalars : 0;
     for (int s = 0; s < SCALAR_STATE_COUNT; s++)
         if (s < SCALAR_OWN || columns_place(&saved, (Scalar)s) >= 0)
             scalars |= UINT32_C(1) << s;

@@ -250,6 +250,7 @@ class Beside(CompareTest):
                              ('each entry of views has a `file`', '[{file: run.h5part}]'),
                              ('views[1].set: view.radius is no setting of what is simulated', '[{}, {set: {view.radius: 1}}]'),
                              ('views[1] has `file` and `set`', '[{}, {file: run.h5part, set: {gravity: 3}}]'),
+                             ('only particles of backend fragment have lost', '[{color_by: lost}]'),
                              ('views[1].file: none.h5part: cannot be read', '[{}, {file: none.h5part}]'),
                              ('views[1].file: scene.yaml is no recorded run', '[{}, {file: scene.yaml}]')):
             code, said = self.slosh('render', 'scene.yaml', '-o', 'out.png', '--set', f'views={views}')

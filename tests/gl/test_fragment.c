@@ -257,6 +257,37 @@ static void layers_follow_the_support(void **state)
     }
 }
 
+/* The scalar `lost` is 1 of the particles that are in no place of the buckets, and 0 of the others. Returns
+ * how many. */
+static size_t lost_shown(World *world)
+{
+    const Fragment *f = world->state;
+    ParticleBuffers shared;
+    uint32_t *places = fragment_buckets_read(f);
+    bool *placed = calloc(CROWD, sizeof *placed);
+    float *lost = calloc(CROWD, sizeof *lost);
+    size_t count = 0;
+    for (size_t cell = 0; cell < world->constants.cells.count; cell++)
+        for (int place = 0; place < 4 * f->layers; place++) {
+            const uint32_t entry = fragment_bucket_at(f, places, cell, place);
+            assert_true(entry <= CROWD);
+            if (entry > 0)
+                placed[entry - 1] = true;
+        }
+    world_share(world, PARTICLE_SCALAR(SCALAR_LOST), &shared);
+    glGetNamedBufferSubData(shared.scalar[SCALAR_LOST].buffer, 0, (GLsizeiptr)(sizeof *lost * CROWD), lost);
+    for (int i = 0; i < CROWD; i++) {
+        if (lost[i] != (placed[i] ? 0.0F : 1.0F))
+            fail_msg("particle %d %s a place, but lost is %g", i, placed[i] ? "has" : "has not",
+                     (double)lost[i]);
+        count += lost[i] > 0;
+    }
+    free(places);
+    free(placed);
+    free(lost);
+    return count;
+}
+
 /* The paper's four places a cell, and as many as there may be. */
 static void what_finds_no_place_is_counted(void **state)
 {
@@ -271,6 +302,7 @@ static void what_finds_no_place_is_counted(void **state)
         fixture_step(world, 1);
         assert_true(world_is_valid(world));
         assert_int_equal(info_of(world).lost, lost);
+        assert_int_equal(lost_shown(world), lost);
         printf("%d layers: %zu of %d particles lost\n", layers[k], lost, CROWD);
         assert_true(k == 3 ? lost > 0 : lost > 100);
         world_destroy(world);

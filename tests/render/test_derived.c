@@ -171,6 +171,27 @@ static void a_rigid_rotation_has_twice_its_rate(void **state)
     free(cloud);
 }
 
+/* v_x = rate y: |S| = rate; and v = e r: |S| = sqrt(2 d) e, in d dimensions. */
+static void strain_and_eddies(void **state)
+{
+    (void)state;
+    const double none[3] = {0}, rate = 3, spacing = 0.05;
+    for (int flat = 0; flat < 2; flat++)
+        for (int shear = 0; shear < 2; shear++) {
+            Cloud *cloud = lattice(14, 11, flat ? 1 : 9, spacing, 2.1);
+            const size_t count = cloud->state.count;
+            const double strain = shear ? rate : rate * sqrt(flat ? 4 : 6), width = 0.12 * spacing;
+            set_linear(cloud, none, shear ? 0 : rate);
+            for (size_t i = 0; shear && i < count; i++)
+                cloud->velocity[4 * i] = (float)(rate * cloud->position[4 * i + 1]);
+            derive(cloud);
+            assert_true(off(cloud->scalar[SCALAR_STRAIN_RATE], 1, count, strain) < 2e-4);
+            assert_true(off(cloud->scalar[SCALAR_EDDY_VISCOSITY], 1, count, width * width * strain) <
+                        2e-4 * width * width * strain);
+            free(cloud);
+        }
+}
+
 static void an_expansion_has_no_vorticity(void **state)
 {
     (void)state;
@@ -608,6 +629,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(a_rigid_rotation_has_twice_its_rate, no_gl_errors),
+        cmocka_unit_test_teardown(strain_and_eddies, no_gl_errors),
         cmocka_unit_test_teardown(an_expansion_has_no_vorticity, no_gl_errors),
         cmocka_unit_test_teardown(in_two_dimensions_the_vorticity_has_a_sign, no_gl_errors),
         cmocka_unit_test_teardown(a_linear_pressure_has_its_gradient, no_gl_errors),

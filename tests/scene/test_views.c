@@ -168,6 +168,11 @@ static void entries_have_sources(void **state)
     assert_int_equal(trails_listed_ids(trails_def(&scene.view), ids), TRAILS_LISTED_MAX);
     assert_false(parse_set(LEAST, "view.trails.ids=[" EIGHT ", " EIGHT ", 1]", &scene, &error));
     assert_non_null(strstr(error.message, "view.trails.ids is too long; use at most 175 bytes"));
+    assert_true(parse_set(LEAST, "views=[{}, {time: 0.25}]", &scene, &error));
+    assert_true(scene.views[0].time < 0 && scene.views[1].time == 0.25);
+    assert_false(parse_set(LEAST, "views=[{time: -2}]", &scene, &error));
+    assert_false(parse_set(LEAST, "view.color_by=lost", &scene, &error));
+    assert_non_null(strstr(error.message, "lost"));
     assert_false(parse_set(LEAST, "view.set={gravity: 3}", &scene, &error));
     assert_non_null(strstr(error.message, "view.set is for entries of views"));
     assert_false(parse_text(LEAST "views: [{file: a.h5part}]\n", NULL, &scene, &error));

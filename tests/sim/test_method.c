@@ -88,7 +88,7 @@ static int scalars_of(const ColumnDef *row, Scalar only)
         for (int k = 0; row->flags & COLUMN_SAVED && column_own(row) >= 0 && k < row->components; k++) {
             int known = 0;
             snprintf(name, sizeof name, row->components > 1 ? "%s_%c" : "%s", row->name, 'x' + k);
-            for (int s = SCALAR_OWN; s < SCALAR_BORN; s++)
+            for (int s = SCALAR_OWN; s < SCALAR_OWN_END; s++)
                 if (strcmp(name, scalar_list[s].name) == 0 && strcmp(row->unit, scalar_list[s].unit) == 0) {
                     known++;
                     found += (Scalar)s == only;
@@ -102,7 +102,7 @@ static int scalars_of(const ColumnDef *row, Scalar only)
 static void what_is_saved_is_a_scalar(void **state)
 {
     (void)state;
-    for (int s = SCALAR_OWN; s < SCALAR_BORN; s++) {
+    for (int s = SCALAR_OWN; s < SCALAR_OWN_END; s++) {
         int found = 0;
         for (const Method *const *method = method_list(); *method; method++)
             if (strcmp((*method)->name, "toy") != 0) /* it stands in no list of the program */

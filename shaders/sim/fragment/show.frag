@@ -20,6 +20,8 @@ float value_of(int i)
         return compression_of(i);
     case SCALAR_FLUID:
         return fluid;
+    case SCALAR_LOST: // in the last grid: density.frag
+        return of_particle(fields, i).w;
     }
     return of_particle(position, i).w;
 }

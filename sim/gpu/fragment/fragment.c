@@ -327,6 +327,7 @@ const Backend backend_fragment = {
     .keys = keys,
     .to_raise = fragment_to_raise,
     .gpu = true,
+    .scalars = UINT32_C(1) << SCALAR_LOST,
     .help = "fragment shaders on the GPU, after Harada 2007: methods with such shaders, without solids",
     .can = fragment_can,
     .create = fragment_create,

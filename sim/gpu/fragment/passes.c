@@ -46,6 +46,7 @@ static void put_terms(SourceText *to, const Constants *s)
 {
 #define X(NAME, name, unit) put(to, "#define SCALAR_" #NAME " %d\n", SCALAR_##NAME);
     STATE_SCALAR_LIST(X)
+    BACKEND_SCALAR_LIST(X)
     X(STATE_COUNT, , )
 #undef X
     put(to, "#define FLUIDS %d\n", s->fluid_count);

@@ -136,8 +136,8 @@ static void show(Fragment *f, int what)
 
 static void share_scalars(Fragment *f, unsigned attributes, ParticleBuffers *out)
 {
-    for (int s = 0; s < SCALAR_OWN; s++) {
-        if (!(attributes & PARTICLE_SCALAR(s)))
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++) {
+        if (!(attributes & PARTICLE_SCALAR(s)) || (s >= SCALAR_OWN && s != SCALAR_LOST))
             continue;
         show(f, s);
         out->scalar[s] = pack(f, &f->shown[s], f->word, GL_RED_INTEGER, 4);
