@@ -1,5 +1,5 @@
-// Nodes of marching cubes: the voxels' centres. A node past a wall is moved onto the wall, so that the mesh is flat there and
-// ends in the corner between surface and wall; what is farther out is outside, so the mesh is closed. Needs raycast.glsl.
+// Nodes of marching cubes: the voxels' centres. A node past a wall is moved onto the wall, so that the mesh is flat there, with a
+// sharp edge at the surface. Nodes farther out are outside, so the mesh is closed.
 #include "volume/raycast.glsl"
 #include "shaders/volume/volume_bindings.h"
 

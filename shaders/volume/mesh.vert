@@ -1,5 +1,5 @@
-// The triangles of a listed cube (mesh_list.comp), 15 vertices each: what a cube does not need is outside the picture. After: W.
-// Lorensen, H. Cline, "Marching cubes", 1987; the cases are those of the mesh that is exported (include/slosh/mesh.h).
+// The triangles of a listed cube (mesh_list.comp), 15 vertices each: vertices without a triangle are outside the picture. After: W.
+// Lorensen, H. Cline, "Marching cubes", 1987, with the cases of the exported mesh (include/slosh/mesh.h).
 #include "common/frame.glsl"
 #include "volume/mesh.glsl"
 

@@ -1,5 +1,5 @@
-// A triangle of the mesh as a facet: its normal in the eye's frame, and what its edges cover of the pixel. Triangles of a few
-// pixels show no edges: they would be one grey.
+// A triangle of the mesh as a facet: the normal in the eye's frame, and the part of the pixel under edges. Triangles of a few
+// pixels show no edges, since the whole mesh would be grey.
 #include "common/frame.glsl"
 
 layout(location = 0) in vec3 in_eye;

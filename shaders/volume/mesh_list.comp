@@ -1,4 +1,4 @@
-// Lists the cubes that the surface goes through: one workgroup a brick, 15 vertices a cube (mesh.vert). Bricks without a node at
+// Lists the cubes with a surface: one workgroup a brick, 15 vertices a cube (mesh.vert). Bricks without a node at
 // the level are left out at once; the outermost have the cubes at the volume's border as well.
 #include "volume/mesh.glsl"
 

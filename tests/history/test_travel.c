@@ -217,12 +217,12 @@ static BoxTarget hand_of(const Rig *rig)
 }
 
 /* The follower with a setting of its own. */
-static void open_pair(Rig *leader, Rig *follower, void (*wake)(void))
+static void open_pair(Rig *leader, Rig *follower, double until, void (*wake)(void))
 {
     rig_start(follower,
               BOX "gravity: [0, -3, 0]\n"
                   "solver: {sound_speed: 15, threads: 1, step: {dt: 0.01, substeps: 5}}\n",
-              (SimulatorSetup){.history_bytes = 64 * MIB, .follows = true});
+              (SimulatorSetup){.history_bytes = 64 * MIB, .follows = true, .until = until});
     rig_start(
         leader, plain,
         (SimulatorSetup){
@@ -235,7 +235,7 @@ static void what_follows_is_cut_too(void **state)
 {
     (void)state;
     Rig leader, follower;
-    open_pair(&leader, &follower, NULL);
+    open_pair(&leader, &follower, 0, NULL);
     for (int i = 0; i < 8; i++) {
         rig_target(&follower, 0.02 * i);
         rig_target(&leader, 0.02 * i);
@@ -253,6 +253,28 @@ static void what_follows_is_cut_too(void **state)
     rig_close(&follower);
 }
 
+/* A panel with a time of its own: there the follower waits, also when the leader comes back from before. */
+static void what_follows_stays_at_its_time(void **state)
+{
+    (void)state;
+    Rig leader, follower;
+    const double *now;
+    open_pair(&leader, &follower, 0.035, NULL);
+    now = &follower.simulator->run.info.time;
+    for (int i = 1; i <= 8; i++) {
+        rig_step(&leader);
+        assert_true(fabs(*now - fmin(0.01 * i, 0.04)) < 1e-9);
+    }
+    rig_go(&leader, 0.02);
+    rig_step(&leader);
+    assert_true(fabs(*now - 0.03) < 1e-9);
+    rig_go(&leader, INFINITY);
+    rig_step(&leader);
+    assert_true(fabs(*now - 0.04) < 1e-9 && leader.status.time > 0.08);
+    rig_close(&leader);
+    rig_close(&follower);
+}
+
 static Rig leads, follows;
 static int apart; /* wakes at which states of two times were shown; of the solver's thread */
 
@@ -266,7 +288,7 @@ static void look_at_both(void)
 static void a_reset_is_shown_of_all_at_once(void **state)
 {
     (void)state;
-    open_pair(&leads, &follows, look_at_both);
+    open_pair(&leads, &follows, 0, look_at_both);
     for (int i = 0; i < 3; i++)
         rig_step(&leads);
     simulator_reset(leads.simulator);
@@ -797,6 +819,7 @@ int main(void)
         cmocka_unit_test(emitters_take_back_what_they_sent),
         cmocka_unit_test(a_command_in_the_past_cuts_the_rest_off),
         cmocka_unit_test(what_follows_is_cut_too),
+        cmocka_unit_test(what_follows_stays_at_its_time),
         cmocka_unit_test(a_reset_is_shown_of_all_at_once),
         cmocka_unit_test(accelerations_wished_in_the_past_cut_nothing),
         cmocka_unit_test(time_runs_on_in_the_past_as_it_did),
