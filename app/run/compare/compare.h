@@ -171,7 +171,7 @@ typedef struct PicturePanel {
     const Session *session;
     Recorded *recorded;   /* instead of a session; its reader is taken over, the rest stays */
     const Session *scene; /* session giving the time for a run; NULL: the picture's time */
-    const ViewDef *view;  /* stays valid, with the time of the states, if any; pictures follow its changes */
+    const ViewDef *view;  /* stays valid, with the time of the states, if any; pictures follow changes */
 } PicturePanel;
 
 /* A session or run: its state on the GPU, for all its panels. */
@@ -200,8 +200,8 @@ typedef struct PanelPictures {
     PictureSource sources[PANELS_MAX];
     int source_of[PANELS_MAX];        /* per panel */
     const ViewDef *asked[PANELS_MAX]; /* the views of the callers' panels */
-    ViewDef said[PANELS_MAX];         /* the same as of the last picture */
-    ViewDef views[PANELS_MAX];        /* the same as they are drawn */
+    ViewDef said[PANELS_MAX];         /* copies, of the last picture */
+    ViewDef views[PANELS_MAX];        /* as drawn */
     int solids[PANELS_MAX];           /* count of shown solids */
     bool fresh;                       /* a state or a view has changed since the last picture */
     MissingAttributes missing;

@@ -153,7 +153,7 @@ static const WorldDef *world_of(const PictureSource *source)
     return source->session ? &source->session->run.scene.world : &source->recorded->scene.world;
 }
 
-/* Takes a panel's view as it is now. A view that reads more gets new uploads. */
+/* Takes a panel's present view. A view that reads more gets new uploads. */
 static bool follow_view(PanelPictures *pictures, int panel, Error *error)
 {
     PictureSource *source = &pictures->sources[pictures->source_of[panel]];

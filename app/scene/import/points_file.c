@@ -92,7 +92,7 @@ static bool take_format(Ply *ply, const char *line)
     return fail(ply, "the format must be ascii, binary_little_endian or binary_big_endian");
 }
 
-/* True for a line of the header that names an element. */
+/* True for a line of the header with such a begin. */
 static bool begins(const char *line, const char *with)
 {
     return strncmp(line, with, strlen(with)) == 0;
