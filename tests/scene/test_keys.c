@@ -189,7 +189,7 @@ static void every_list_has_its_bounds(void **state)
     assert_non_null(strstr(error.message, "fluids has 9 entries; it must have 1 to 8"));
 }
 
-/* By a scene of either method. */
+/* By a scene of either method, or of the backend with a scalar of its own. */
 static bool is_taken(const char *setting, Scene *scene, Error *error)
 {
     for (int i = 0; method_list()[i]; i++) {
@@ -199,7 +199,8 @@ static bool is_taken(const char *setting, Scene *scene, Error *error)
         if (parse_text(everything, &settings, scene, error))
             return true;
     }
-    return false;
+    SceneSettings settings = {.count = 2, .set = {"solver.backend=fragment", setting}};
+    return parse_text(everything, &settings, scene, error);
 }
 
 static void every_name_of_a_choice_is_taken(void **state)
