@@ -619,7 +619,7 @@ static void kept_open(Kept *kept, const char *method)
 {
     static const char scene[] =
         "box: {size: [1, 1, 1]}\n"
-        "particles: {spacing: 0.02}\n"
+        "particles: {spacing: 0.03}\n"
         "fluids: [{viscosity: 1, fill: [{block: {min: [-0.5, 0, -0.5], max: [0, 0.6, 0.5]}}]}]\n"
         "solver: {method: %s, backend: compute, sound_speed: 15, step: {dt: 0.001, substeps: 1}}\n";
     SceneSettings none = {.count = 0};
@@ -667,24 +667,24 @@ static bool same_particles(const WorldDef *def, WorldState *a, WorldState *b)
     return same;
 }
 
-/* Loaded after 0, 1, ... frames: parts of the state are still under way, then none. */
+/* Loaded after some frames: parts of the state are still under way, then none. */
 static void particles_of_a_gpu_come_a_part_at_a_time(void **state)
 {
-    enum { LATEST = 4 };
-    static const char *const methods[] = {"mueller", "wcsph", "dfsph, viscosity: implicit"};
+    static const int later[] = {0, 1, 4}; /* frames */
+    static const char *const methods[] = {"wcsph", "dfsph, viscosity: implicit"};
     (void)state;
-    for (int m = 0; m < 3; m++) {
+    for (int m = 0; m < 2; m++) {
         Kept kept;
         size_t next;
         kept_open(&kept, methods[m]);
         WorldState then = {.count = 0}, now = {.count = 0};
         kept_frame(&kept);
         must(world_save(kept.world, &then, &error));
-        for (int frames = 0; frames <= LATEST; frames++) {
+        for (int k = 0; k < 3; k++) {
             kept_begin(&kept);
             const GlCalls before = gl_calls();
             history_keep(kept.history, kept.world, &kept.scene, 0, true);
-            for (int i = 0; i < frames; i++) {
+            for (int i = 0; i < later[k]; i++) {
                 kept_frame(&kept);
                 history_keep(kept.history, kept.world, &kept.scene, 0, false);
             }
@@ -693,7 +693,7 @@ static void particles_of_a_gpu_come_a_part_at_a_time(void **state)
             must(history_load(kept.history, 0, &kept.world, &kept.scene, &next, &error));
             must(world_save(kept.world, &now, &error));
             if (!same_particles(&kept.scene.world, &then, &now))
-                fail_msg("%s: other bits %d frames later", methods[m], frames);
+                fail_msg("%s: other bits %d frames later", methods[m], later[k]);
             assert_true(gl_calls_since(&before).readbacks > 0); /* of the last save: the count counts */
         }
         world_state_free(&then);

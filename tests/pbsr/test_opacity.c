@@ -729,6 +729,8 @@ static void still_layers_that_fall_short(void **state)
                       "sampler: walk"));
     layer_text(&(PbsrLayer){.of = PBSR_SURFACE, .level = 120, .file = "a.b/head.yaml"}, words);
     assert_string_equal(words, "surface 120 of head");
+    layer_text(&(PbsrLayer){.of = PBSR_SLICE_X, .level = 0.1, .angle_deg = 30, .file = "none"}, words);
+    assert_string_equal(words, "slice_x at 0.1 m, moved");
     layer_text(&(PbsrLayer){.of = PBSR_SLICE_X, .level = 0.1, .file = "head"}, words);
     assert_string_equal(words, "slice_x 0.1 m of head");
     rigid_layer_free(&rigid);

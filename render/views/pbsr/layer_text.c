@@ -17,6 +17,12 @@ static void words_of_file(const PbsrLayer *said, char words[LAYER_TEXT_SIZE])
              length < 32 ? length : 32, file);
 }
 
+static bool is_moved(const PbsrLayer *said)
+{
+    const double *at = said->position;
+    return at[0] != 0 || at[1] != 0 || at[2] != 0 || said->angle_deg != 0 || said->motion_count > 0;
+}
+
 void layer_text(const PbsrLayer *said, char words[LAYER_TEXT_SIZE])
 {
     const char *name = pbsr_layer_name(said->of);
@@ -28,7 +34,8 @@ void layer_text(const PbsrLayer *said, char words[LAYER_TEXT_SIZE])
     else if (said->of == PBSR_SURFACE)
         snprintf(words, LAYER_TEXT_SIZE, "%s at %.4g", name, said->level);
     else if (said->of >= PBSR_SLICE_X && said->of <= PBSR_SLICE_Z)
-        snprintf(words, LAYER_TEXT_SIZE, "%s at %.4g m", name, said->level);
+        snprintf(words, LAYER_TEXT_SIZE, "%s at %.4g m%s", name, said->level,
+                 is_moved(said) ? ", moved" : "");
     else if (said->of == PBSR_FORMULA)
         snprintf(words, LAYER_TEXT_SIZE, "%.40s = %.4g", said->formula, said->level);
     else if (said->of < PBSR_SCALARS)
