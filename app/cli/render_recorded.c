@@ -139,9 +139,10 @@ static bool spread_times(FileRender *render, Error *error)
     for (int i = 0; i < times * views; i++) {
         const char *value = args->sweeps[0].values[i % times];
         char *end;
+        const double time = strtod(value, &end);
         of[i] = *scene_view(scene, i / times);
-        of[i].time = of[i].time >= 0 ? of[i].time : strtod(value, &end);
-        if (*end || !(of[i].time >= 0 && of[i].time <= 1e6))
+        of[i].time = of[i].time >= 0 ? of[i].time : time;
+        if (*end || !(time >= 0 && time <= 1e6))
             return error_set(error, "--compare time: %s is no time in seconds", value);
     }
     memcpy(scene->views, of, (size_t)(times * views) * sizeof *of);

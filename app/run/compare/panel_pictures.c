@@ -175,10 +175,11 @@ static bool follow_view(PanelPictures *pictures, int panel, Error *error)
 /* Commands of a recorded session may change views. */
 static bool follow_views(PanelPictures *pictures, Error *error)
 {
-    for (int i = 0; i < panels_count(pictures->panels); i++)
-        if (memcmp(pictures->asked[i], &pictures->said[i], sizeof pictures->said[i]) != 0 &&
-            !follow_view(pictures, i, error))
+    for (int i = 0; i < panels_count(pictures->panels); i++) {
+        const void *asked = pictures->asked[i], *said = &pictures->said[i]; /* said: a copy, byte by byte */
+        if (memcmp(asked, said, sizeof pictures->said[i]) != 0 && !follow_view(pictures, i, error))
             return false;
+    }
     return true;
 }
 

@@ -5,6 +5,7 @@
 #include "app/base/file.h"
 #include "sim/points/scattered.h"
 
+#include <assert.h>
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -141,6 +142,7 @@ static bool take_bytes(Ply *ply, int type, double *value)
 {
     const size_t bytes = types[type].bytes;
     uint64_t bits = 0;
+    assert(bytes > 0);
     if ((size_t)(ply->end - ply->at) < bytes)
         return fail(ply, "the file ends before its points do");
     for (size_t k = 0; k < bytes; k++)
@@ -162,7 +164,7 @@ static bool take_bytes(Ply *ply, int type, double *value)
 static bool take_point(Ply *ply, float place[3], float normal[3])
 {
     for (int k = 0; k < ply->properties; k++) {
-        double value;
+        double value = 0;
         if (!(ply->format == PLY_ASCII ? take_word(ply, &value) : take_bytes(ply, ply->type[k], &value)))
             return false;
         if (ply->wanted[k] >= 0)
