@@ -76,8 +76,7 @@ static const BenchTable tables[] = {
                  {"rendering", 0}}},
     {.name = "paper003-voxelize",
      .help =
-         "the ways to the volume side by side: `geometry` is the SIBGRAPI paper's, `iwasaki` what that paper is "
-         "compared with; `direct` lists the particles and sums where the slice is drawn",
+         "ways to the volume: that paper's `geometry`, its rival `iwasaki`; `direct`: where the slice is drawn",
      .scene = "scenes/dam_break.yaml",
      .settings = {"view.volume.show=slice"},
      .particles = {"1024", "8192"},
