@@ -61,8 +61,8 @@ static const BenchTable tables[] = {
     {.name = "paper003-raycast",
      .help =
          "simulation, volume and raycasting (SIBGRAPI 2010, Table I and Figure 5), by the paper's geometry "
-         "shader; 128 x 128 x 128 cells in a cube, as its CPU has, or with --set view.volume.cells=512 cells as "
-         "fine as its GPU's 128 x 512 x 512",
+         "shader; 128 x 128 x 128 cells in a cube, as its CPU has; with --set view.volume.cells=512 as fine as its "
+         "GPU's 128 x 512 x 512",
      .scene = "scenes/papers/cube.yaml",
      .settings = {"solver.step.dt=0.0012", "solver.step.substeps=1", "view.volume.method=geometry"},
      .particles = {"1024", "2048", "4096", "8192"},
@@ -76,7 +76,7 @@ static const BenchTable tables[] = {
                  {"rendering", 0}}},
     {.name = "paper003-voxelize",
      .help =
-         "ways to the volume: that paper's `geometry`, its rival `iwasaki`; `direct`: where the slice is drawn",
+         "ways to the volume, that paper's `geometry`, its rival `iwasaki`; `direct`: where the slice is drawn",
      .scene = "scenes/dam_break.yaml",
      .settings = {"view.volume.show=slice"},
      .particles = {"1024", "8192"},

@@ -10,7 +10,7 @@ layout(std430, binding = MESH_COMMAND_STORAGE) buffer Command { uint vertices, i
 void main()
 {
     ivec3 brick = ivec3(gl_WorkGroupID), count = ivec3(brick_count), side = ivec3(brick_side);
-    if (!(texelFetch(greatest_map, brick, 0).x >= surface_level))
+    if (texelFetch(greatest_map, brick, 0).x < surface_level)
         return;
     ivec3 low = mix(brick * side, ivec3(-1), equal(brick, ivec3(0)));
     ivec3 many = mix(brick * side + side, ivec3(volume_cells), equal(brick, count - 1)) - low;

@@ -99,6 +99,7 @@ static const struct {
     {"view.size.curve=ends", "view.size.by=speed", "a scalar (view.size.by)", false},
     {"view.splat.ior=2", "view.kind=splat", "view.kind: splat", false},
     {"view.volume.look=water", "view.kind=volume", "view.kind: volume", false},
+    {"view.volume.surface=mesh", "view.kind=volume", "view.kind: volume", false},
     {"view.volume.opacity=0.5", "view={kind: volume, volume: {look: translucent}}", "view.kind: volume",
      false},
     {"view.volume.skin=0.2", "view={kind: volume, volume: {look: translucent}}", "view.kind: volume", false},
