@@ -3,6 +3,7 @@
 #include "render/frame/effect.h"
 #include "render/frame/view.h"
 #include "render/overlays/glyphs/glyphs.h"
+#include "render/overlays/streamlines/streamlines.h"
 #include "render/overlays/trails/trails.h"
 #include "render/views/pbsr/pbsr.h"
 #include "render/views/slice/slice.h"
@@ -14,7 +15,7 @@
 const ViewKind *const view_list[] = {&view_spheres, &view_splat, &view_volume, &view_slice, &view_pbsr, NULL};
 
 /* In drawing order: fading lines come after solid objects. */
-const OverlayKind *const overlay_list[] = {&overlay_glyphs, &overlay_trails, NULL};
+const OverlayKind *const overlay_list[] = {&overlay_glyphs, &overlay_streamlines, &overlay_trails, NULL};
 
 /* clang-format off */
 

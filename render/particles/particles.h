@@ -593,6 +593,29 @@ bool plane_empty(const float sums[4]);
    s; else this sum divided by the sum of V W (Shepard 1968). */
 double plane_value(const float sums[4], bool raw);
 
+/* Means of the fluid at places of a grid, by shaders/common/sample_grid.glsl and mean.glsl. */
+
+/* Places evenly spread through the box or on a plane. */
+typedef struct SampleGrid {
+    double first[3], step[3][3]; /* m, box's frame */
+    int count[3];
+    double cell;  /* from place to place, m */
+    bool coarser; /* the cell is larger than asked: there would be too many places */
+} SampleGrid;
+
+/* Cells of `cell` m, or larger ones for at most `most` places; NULL plane: through the whole box. */
+void sample_grid_make(SampleGrid *grid, const double box_size[3], const Plane *plane, double cell,
+                      double most);
+size_t sample_grid_places(const SampleGrid *grid);
+void sample_grid_set(const SampleGrid *grid, unsigned program);
+
+/* Binds the particles, a vector and the scalar shown. `no_scalar`: as `stand_in` of particle_bind_one. */
+void vectors_bind(unsigned program, const ParticleBuffers *particles, Vector vector, Scalar shown,
+                  unsigned no_scalar);
+
+/* Sets the kernel of means. */
+void mean_set(unsigned program, double support_radius, int dimensions);
+
 /* Reads single samples of a slice's sums. Sums on the CPU are available at once; on a GPU the samples are
    copied after the picture and available once the copy is done: nothing waits. */
 

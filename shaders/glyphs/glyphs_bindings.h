@@ -3,28 +3,19 @@
 #define SLOSH_GLYPHS_BINDINGS_H
 
 /* Storage buffers, in addition to those of particles and neighbourhood */
-#define GLYPH_VECTORS_STORAGE 3
 #define GLYPH_COMMAND_STORAGE 4
 #define GLYPH_ARROWS_STORAGE  5
 #define GLYPH_IDS_STORAGE     7
 
 /* Locations of uniforms */
-#define GLYPH_COUNT_AT         16 /* particles, or samples */
-#define GLYPH_VECTOR_STRIDE_AT 18
-#define GLYPH_ID_STRIDE_AT     19
-#define GLYPH_EVERY_AT         20 /* ids */
-#define GLYPH_IS_FLUID_AT      24
-#define GLYPH_SUPPORT_AT       25
-#define GLYPH_PEAK_AT          26
-#define GLYPH_FIRST_AT         27 /* sample */
-#define GLYPH_ALONG_AT         28
-#define GLYPH_UP_AT            29
-#define GLYPH_DEEP_AT          30
-#define GLYPH_SAMPLES_AT       31
-#define GLYPH_SCALE_AT         32
-#define GLYPH_SIZE_AT          33
-#define GLYPH_LIFT_AT          34
-#define GLYPH_COLOR_AT         35
+#define GLYPH_COUNT_AT     16 /* particles */
+#define GLYPH_ID_STRIDE_AT 19
+#define GLYPH_EVERY_AT     20 /* ids */
+#define GLYPH_IS_FLUID_AT  24
+#define GLYPH_SCALE_AT     32
+#define GLYPH_SIZE_AT      33
+#define GLYPH_LIFT_AT      34
+#define GLYPH_COLOR_AT     35
 
 /* Histogram of magnitudes: bins per octave, the middle bin at 1. */
 #define GLYPH_BINS        512

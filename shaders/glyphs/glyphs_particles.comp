@@ -6,10 +6,10 @@
 layout(local_size_x = 64) in;
 
 layout(std430, binding = GLYPH_IDS_STORAGE) readonly buffer Ids { uint ids[]; };
-layout(std430, binding = GLYPH_VECTORS_STORAGE) readonly buffer Vectors { float vector_words[]; };
+layout(std430, binding = VECTORS_STORAGE) readonly buffer Vectors { float vector_words[]; };
 layout(location = GLYPH_COUNT_AT) uniform uint count;
 layout(location = GLYPH_ID_STRIDE_AT) uniform uint id_stride;
-layout(location = GLYPH_VECTOR_STRIDE_AT) uniform uint vector_stride;
+layout(location = VECTOR_STRIDE_AT) uniform uint vector_stride;
 layout(location = GLYPH_EVERY_AT) uniform uint every;
 
 void main()

@@ -1,69 +1,15 @@
-// An arrow for each sample of a grid or a plane: the mean, sum V W v over sum V W (Shepard 1968), with Wendland's C2 kernel of
-// the solver's support radius. No fluid where sum V W is below a quarter.
-#include "common/particles.glsl"
-#include "common/particle_shown.glsl"
-#include "common/neighbourhood.glsl"
+// An arrow for each sample of a grid or a plane: the mean of the fluid around.
+#include "common/mean.glsl"
+#include "common/sample_grid.glsl"
 #include "glyphs/glyphs_append.glsl"
-
-layout(std430, binding = GLYPH_VECTORS_STORAGE) readonly buffer Vectors { float vector_words[]; };
-layout(location = GLYPH_COUNT_AT) uniform uint count;
-layout(location = GLYPH_VECTOR_STRIDE_AT) uniform uint vector_stride;
-layout(location = GLYPH_SUPPORT_AT) uniform float support; // m
-layout(location = GLYPH_PEAK_AT) uniform float peak;       // of the kernel, 1/m3 or 1/m2
-layout(location = GLYPH_FIRST_AT) uniform vec3 first;      // sample, m
-layout(location = GLYPH_ALONG_AT) uniform vec3 along;      // to the next sample
-layout(location = GLYPH_UP_AT) uniform vec3 up;
-layout(location = GLYPH_DEEP_AT) uniform vec3 deep;
-layout(location = GLYPH_SAMPLES_AT) uniform uvec2 samples; // samples per row, rows per layer
-
-struct Mean {
-    float weight, scalar_weight, scalar, best;
-    vec3 vector;
-    float fluid; // fluid of the particle with the largest weight
-};
-
-void add(inout Mean mean, uint number, float weight)
-{
-    uint at = number * vector_stride;
-    vec3 vector = vec3(vector_words[at], vector_words[at + 1u], vector_words[at + 2u]);
-    float value = particle_shown(number);
-    if (is_nan(vec4(vector, weight)) || any(greaterThan(abs(vector), vec3(1e15))))
-        return;
-    bool known = !is_nan(value) && abs(value) < 1e30;
-    mean.weight += weight;
-    mean.vector += weight * vector;
-    mean.scalar_weight += known ? weight : 0.0;
-    mean.scalar += known ? weight * value : 0.0;
-    mean.fluid = weight > mean.best ? value : mean.fluid;
-    mean.best = max(mean.best, weight);
-}
-
-Mean mean_at(vec3 x)
-{
-    Mean mean = Mean(0.0, 0.0, 0.0, 0.0, vec3(0.0), 0.0);
-    uvec3 cell = cell_at(x);
-    for (uint row = 0u; row < 9u; row++) {
-        uvec2 range = row_of(cell, row);
-        for (uint j = range.x; j < range.y; j++) {
-            float q = length(place_of(j) - x) / support, t = 1.0 - q;
-            if (q >= 1.0)
-                continue;
-            uint number = number_of(j);
-            add(mean, number, position_words[number * position_stride + 3u] * peak * t * t * t * t * (1.0 + 4.0 * q));
-        }
-    }
-    return mean;
-}
 
 void main()
 {
     uint i = invocation();
-    if (i >= count)
+    if (beyond_sample_grid(i))
         return;
-    uint row = i / samples.x;
-    vec3 at = first + float(i % samples.x) * along + float(row % samples.y) * up + float(row / samples.y) * deep;
+    vec3 at = sample_grid_place(i);
     Mean mean = mean_at(at);
-    float value = shown_is_fluid != 0u ? mean.fluid : mean.scalar / mean.scalar_weight;
-    if (mean.weight >= 0.25)
-        append(at, mean.vector / mean.weight, value);
+    if (mean.weight >= mean_least)
+        append(at, mean.vector / mean.weight, shown_of(mean));
 }

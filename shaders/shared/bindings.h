@@ -23,6 +23,8 @@
 #define STARTS_STORAGE 6
 #define ORDER_STORAGE  7
 #define SORTED_STORAGE 8
+/* in means at places: common/mean.glsl */
+#define VECTORS_STORAGE 3
 /* results of sums over neighbours */
 #define SHAPES_STORAGE 9
 #define CAST_STORAGE   10
@@ -45,34 +47,42 @@
 #define BEHIND_DEPTH_UNIT 15
 
 /* Locations of uniforms; views use 16 to 63 */
-#define POSITION_STRIDE_AT  0 /* of an array with the next two */
-#define SCALAR_STRIDE_AT    1
-#define FLUID_STRIDE_AT     2
-#define REFRACTION_INDEX_AT 3
-#define ATTENUATION_AT      4
-#define HALF_WIDTH_AT       5
-#define GRID_SIZE_AT        6
-#define GRID_PARTICLES_AT   7
-#define GRID_CORNER_AT      8
-#define GRID_SCALE_AT       9
-#define CASTERS_AT          10
-#define SCATTER_STEP_AT     11
-#define HALF_PLANE_AT       12
-#define HALF_COUNT_AT       13
-#define SHOWN_STRIDE_AT     14
-#define SHOWN_IS_FLUID_AT   15
-#define CURVE_POINT_AT      64 /* CURVE_POINTS_MAX locations */
-#define CURVE_POINTS_MAX    8
-#define CURVE_PARTICLES_AT  72
-#define CURVE_POINTS_AT     73
-#define CURVE_RANGE_AT      74
-#define ID_STRIDE_AT        75
-#define FLUID_VALUES_AT     96 /* FLUID_VALUES_MAX locations */
-#define FLUID_VALUES_MAX    8
-#define EDGES_BEHIND_AT     76
-#define CAUSTIC_STEP_AT     78
-#define CAUSTIC_WIDTH_AT    79
-#define CAUSTIC_HIGHEST_AT  80
-#define SELECT_COUNT_AT     81
+#define POSITION_STRIDE_AT   0 /* of an array with the next two */
+#define SCALAR_STRIDE_AT     1
+#define FLUID_STRIDE_AT      2
+#define REFRACTION_INDEX_AT  3
+#define ATTENUATION_AT       4
+#define HALF_WIDTH_AT        5
+#define GRID_SIZE_AT         6
+#define GRID_PARTICLES_AT    7
+#define GRID_CORNER_AT       8
+#define GRID_SCALE_AT        9
+#define CASTERS_AT           10
+#define SCATTER_STEP_AT      11
+#define HALF_PLANE_AT        12
+#define HALF_COUNT_AT        13
+#define SHOWN_STRIDE_AT      14
+#define SHOWN_IS_FLUID_AT    15
+#define CURVE_POINT_AT       64 /* CURVE_POINTS_MAX locations */
+#define CURVE_POINTS_MAX     8
+#define CURVE_PARTICLES_AT   72
+#define CURVE_POINTS_AT      73
+#define CURVE_RANGE_AT       74
+#define ID_STRIDE_AT         75
+#define FLUID_VALUES_AT      96 /* FLUID_VALUES_MAX locations */
+#define FLUID_VALUES_MAX     8
+#define EDGES_BEHIND_AT      76
+#define CAUSTIC_STEP_AT      78
+#define CAUSTIC_WIDTH_AT     79
+#define CAUSTIC_HIGHEST_AT   80
+#define SELECT_COUNT_AT      81
+#define VECTOR_STRIDE_AT     82
+#define MEAN_SUPPORT_AT      83
+#define MEAN_PEAK_AT         84
+#define SAMPLE_GRID_FIRST_AT 86
+#define SAMPLE_GRID_ALONG_AT 87
+#define SAMPLE_GRID_UP_AT    88
+#define SAMPLE_GRID_DEEP_AT  89
+#define SAMPLE_GRID_SIDES_AT 90
 
 #endif

@@ -2,6 +2,7 @@
 // trail's incoming direction and ends perpendicular to its own: neighbouring pieces share edges, so no pixel is covered twice or
 // missed.
 #include "common/frame.glsl"
+#include "common/line.glsl"
 #include "shaders/trails/trails_bindings.h"
 
 layout(std430, binding = TRAIL_PLACES_STORAGE) readonly buffer Places { vec4 places[]; };
@@ -25,23 +26,6 @@ bool joined(uint from, uint to)
 vec3 eye_of(uint at)
 {
     return (box_to_eye * vec4(places[at].xyz, 1.0)).xyz;
-}
-
-// The fraction of the way to the other end where this end is in front of the eye.
-float cut(float own, float other)
-{
-    float clear = -2.0 * near_plane;
-    return own <= clear ? 0.0 : (own - clear) / (own - other);
-}
-
-vec2 pixels_of(vec3 at)
-{
-    return at.xy / (-at.z * view_tangent) * 0.5 * picture_size;
-}
-
-vec2 across_of(vec2 along)
-{
-    return vec2(-along.y, along.x) / max(length(along), 1e-9);
 }
 
 void main()

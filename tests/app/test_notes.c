@@ -113,6 +113,7 @@ static const struct {
     {"view.slice.cut=0.5", "view.kind=slice", "view.kind: slice", false},
     {"view.pbsr.repeat=5", "view.kind=pbsr", "view.kind: pbsr", false},
     {"view.glyphs.stride=2", "view.glyphs.show=true", "view.glyphs.show: true", false},
+    {"view.streamlines.width=2", "view.streamlines.show=true", "view.streamlines.show: true", false},
     {"view.trails.length=2", "view.trails.show=true", "view.trails.show: true", false},
 };
 enum { OWNED = sizeof owned / sizeof *owned };

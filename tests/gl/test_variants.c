@@ -10,6 +10,7 @@
 
 #include "render/frame/view.h"
 #include "render/overlays/glyphs/glyphs.h"
+#include "render/overlays/streamlines/streamlines.h"
 #include "render/overlays/trails/trails.h"
 #include "render/particles/particles.h"
 #include "render/renderer.h"
@@ -572,6 +573,7 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
     VIEW("slice", v.opacity.by = 1 + SCALAR_PRESSURE);
     VIEW("none", trails_def(&v)->show = true, trails_def(&v)->stride = 1);
     VIEW("spheres", glyphs_def(&v)->show = true, glyphs_def(&v)->at = GLYPHS_GRID);
+    VIEW("spheres", streamlines_def(&v)->show = true);
     return count;
 }
 
@@ -603,6 +605,7 @@ static int few_views_of(ViewDef base, ViewDef views[VIEWS_MAX])
     VIEW("spheres", trails_def(&v)->show = true, trails_def(&v)->through = 0.5);
     VIEW("spheres", glyphs_def(&v)->show = true, glyphs_def(&v)->stride = 1);
     VIEW("spheres", glyphs_def(&v)->show = true, glyphs_def(&v)->at = GLYPHS_GRID);
+    VIEW("spheres", streamlines_def(&v)->show = true);
     return count;
 }
 

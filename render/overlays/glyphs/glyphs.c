@@ -193,15 +193,8 @@ static const ParticleAttribute *vector_of(const ParticleBuffers *particles, cons
 static void set_vector(const GlyphArrows *arrows, GLuint program, const ParticleBuffers *particles,
                        const Frame *frame)
 {
-    const size_t count = particles->count;
-    const Scalar shown = view_color_by(frame->def);
-    particle_bind(program, particles, shown);
-    glProgramUniform1ui(program, GLYPH_VECTOR_STRIDE_AT,
-                        particle_bind_one(GLYPH_VECTORS_STORAGE, vector_of(particles, frame), count, 0));
-    glProgramUniform1ui(program, SHOWN_STRIDE_AT,
-                        particle_bind_one(SHOWN_STORAGE, particle_color_attribute(particles, shown), count,
-                                          arrows->no_scalar));
-    glProgramUniform1ui(program, SHOWN_IS_FLUID_AT, shown == SCALAR_FLUID);
+    vectors_bind(program, particles, glyphs_def(frame->def)->vector, view_color_by(frame->def),
+                 arrows->no_scalar);
 }
 
 static void of_particles(GlyphArrows *arrows, const ParticleBuffers *particles, const Frame *frame)
@@ -221,95 +214,35 @@ static void of_particles(GlyphArrows *arrows, const ParticleBuffers *particles, 
     work_run(particles->count);
 }
 
-/* Positions of samples: a lattice with three steps, m. */
-typedef struct ArrowGrid {
-    double first[3], step[3][3];
-    int count[3];
-} ArrowGrid;
-
-/* Centres as many samples as fit along `size` m. */
-static void fit_samples(ArrowGrid *samples, int axis, double size, double cell, const double way[3])
-{
-    samples->count[axis] = (int)fmax(floor(size / cell + 1e-6), 1);
-    const double begin = (size - cell * (samples->count[axis] - 1)) / 2;
-    for (int k = 0; k < 3; k++) {
-        samples->step[axis][k] = cell * way[k];
-        samples->first[k] += begin * way[k];
-    }
-}
-
-static void grid_samples(ArrowGrid *samples, const double box[3], double cell)
-{
-    static const double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    *samples = (ArrowGrid){.first = {-box[0] / 2, 0, -box[2] / 2}};
-    for (int k = 0; k < 3; k++)
-        fit_samples(samples, k, box[k], cell, axes[k]);
-}
-
-static void plane_samples(ArrowGrid *samples, const Plane *plane, double cell)
-{
-    *samples = (ArrowGrid){.count = {0, 0, 1}};
-    memcpy(samples->first, plane->corner, sizeof samples->first);
-    fit_samples(samples, 0, plane->size[0], cell, plane->along);
-    fit_samples(samples, 1, plane->size[1], cell, plane->up);
-}
-
 /* Returns false if there are no samples: the plane misses the box. */
 static bool make_samples(GlyphArrows *arrows, const ParticleBuffers *particles, const Frame *frame,
-                         ArrowGrid *samples)
+                         SampleGrid *samples)
 {
     const GlyphsDef *def = glyphs_def(frame->def);
     const double *box = particles->box_size, longest = fmax(box[0], fmax(box[1], box[2]));
-    double cell = def->cell > 0 ? def->cell : longest / USUAL_SAMPLES, samples_there = 1;
+    const bool on_plane = def->at == GLYPHS_PLANE;
     Plane plane;
-    if (def->at == GLYPHS_PLANE && !plane_make(box, def->plane_point, def->plane_normal, &plane))
+    if (on_plane && !plane_make(box, def->plane_point, def->plane_normal, &plane))
         return false;
-    const double *sides = def->at == GLYPHS_PLANE ? plane.size : box;
-    const int dimensions = def->at == GLYPHS_PLANE ? 2 : 3;
-    for (int k = 0; k < dimensions; k++)
-        samples_there *= fmax(sides[k] / cell, 1);
-    arrows->coarser = samples_there > SAMPLES_MOST;
-    if (arrows->coarser)
-        cell *= pow(samples_there / SAMPLES_MOST, 1.0 / dimensions) * 1.1;
-    arrows->apart = cell;
-    if (def->at == GLYPHS_PLANE)
-        plane_samples(samples, &plane, cell);
-    else
-        grid_samples(samples, box, cell);
+    sample_grid_make(samples, box, on_plane ? &plane : NULL,
+                     def->cell > 0 ? def->cell : longest / USUAL_SAMPLES, SAMPLES_MOST);
+    arrows->coarser = samples->coarser;
+    arrows->apart = samples->cell;
     return true;
-}
-
-static void set3(GLint location, const double v[3])
-{
-    glUniform3f(location, (GLfloat)v[0], (GLfloat)v[1], (GLfloat)v[2]);
-}
-
-static void set_samples(const ArrowGrid *samples, size_t count)
-{
-    set3(GLYPH_FIRST_AT, samples->first);
-    set3(GLYPH_ALONG_AT, samples->step[0]);
-    set3(GLYPH_UP_AT, samples->step[1]);
-    set3(GLYPH_DEEP_AT, samples->step[2]);
-    glUniform2ui(GLYPH_SAMPLES_AT, (GLuint)samples->count[0], (GLuint)samples->count[1]);
-    glUniform1ui(GLYPH_COUNT_AT, (GLuint)count);
 }
 
 static void of_samples(GlyphArrows *arrows, const ParticleBuffers *particles, const Frame *frame)
 {
-    ArrowGrid samples;
-    const int dimensions = frame->slab > 0 ? 2 : 3, kernel = plane_kernel_named("wendland_c2");
-    const double h = particles->support_radius;
+    SampleGrid samples;
     if (!make_samples(arrows, particles, frame, &samples))
         return;
-    arrows->most = (size_t)samples.count[0] * (size_t)samples.count[1] * (size_t)samples.count[2];
+    arrows->most = sample_grid_places(&samples);
     reserve_arrows(arrows, arrows->most);
     neighbourhood_build(frame->neighbourhood, particles);
     begin(arrows);
     set_vector(arrows, arrows->samples, particles, frame);
-    glUseProgram(arrows->samples);
-    set_samples(&samples, arrows->most);
-    glUniform1f(GLYPH_SUPPORT_AT, (GLfloat)h);
-    glUniform1f(GLYPH_PEAK_AT, (GLfloat)(plane_kernels[kernel].norm[dimensions - 2] / pow(h, dimensions)));
+    sample_grid_set(&samples, arrows->samples);
+    mean_set(arrows->samples, particles->support_radius, frame->slab > 0 ? 2 : 3);
     neighbourhood_run_for(frame->neighbourhood, arrows->samples, arrows->most);
 }
 
