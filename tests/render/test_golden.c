@@ -2,6 +2,7 @@
    255. SLOSH_GOLDEN=write rewrites the images: look at the images before committing. */
 #include "app/files/pictures.h"
 #include "render/overlays/glyphs/glyphs.h"
+#include "render/overlays/streamlines/streamlines.h"
 #include "render/overlays/trails/trails.h"
 #include "render/views/slice/slice.h"
 #include "tests/render/fixture.h"
@@ -415,6 +416,19 @@ static void test_glyphs(void **state)
     check(&golden);
 }
 
+static void test_streamlines(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("streamlines", 160, 120);
+    text_set(golden.def.kind, "none");
+    golden.def.range_auto = false;
+    golden.def.range[1] = 3;
+    streamlines_def(&golden.def)->show = true;
+    streamlines_def(&golden.def)->at = STREAMLINES_GRID;
+    streamlines_def(&golden.def)->cell = 0.25;
+    check(&golden);
+}
+
 static void test_volume_curve(void **state)
 {
     (void)state;
@@ -470,6 +484,7 @@ int main(void)
         cmocka_unit_test_teardown(test_splat_narrow_range, no_gl_errors),
         cmocka_unit_test_teardown(test_trails, no_gl_errors),
         cmocka_unit_test_teardown(test_glyphs, no_gl_errors),
+        cmocka_unit_test_teardown(test_streamlines, no_gl_errors),
         cmocka_unit_test_teardown(test_difference_is_seen, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
