@@ -1,4 +1,4 @@
-// A piece of a line: four vertices. A piece starts across the direction of the one before, as those of trails.
+// A piece of a line: four vertices. A piece starts across the direction of the piece before, as in trails.
 #include "common/frame.glsl"
 #include "common/line.glsl"
 #include "shaders/shared/bindings.h"

@@ -1,12 +1,12 @@
-// A line for each seed of a lattice: steps of one length by Runge and Kutta's fourth order along the direction of the mean
-// velocity, both ways from the seed, which is the middle point. Where a line ends, the other points repeat the last one.
+// A line for each seed of a lattice: steps of one length by Runge and Kutta's fourth order, along the direction of the mean
+// velocity, both ways from the seed. The seed is the middle point. Where a line ends, the other points repeat the last one.
 // With FASTEST: only the greatest speed of all seeds.
 #include "common/mean.glsl"
 #include "common/sample_grid.glsl"
 #include "shaders/streamlines/streamlines_bindings.h"
 
 layout(std430, binding = STREAM_FASTEST_STORAGE) buffer Fastest { uint fastest; }; // bits of m/s, in the order of the numbers
-layout(location = STREAM_NORMAL_AT) uniform vec3 normal; // lines keep to the plane across this unit vector; 0: they do not
+layout(location = STREAM_NORMAL_AT) uniform vec3 normal; // lines keep to the plane across the unit vector; 0: no plane
 
 vec3 velocity_of(Mean mean)
 {
