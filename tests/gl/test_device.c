@@ -215,7 +215,8 @@ static void count_frames(const char *backend, const Viewed *viewed, bool late, O
         FRAMES;
     const int reads = viewed->software && !software ? 0 : FRAMES * viewed->crossings;
     const int asked = viewed->software && !software && !late ? FRAMES : 0;
-    if (crossings != reads || waits < wanted || waits > wanted + FRAMES || queries != asked)
+    /* On a busy machine what was to come a frame later is waited for: 4 more in 3 frames were seen. */
+    if (crossings != reads || waits < wanted || waits > wanted + 2 * FRAMES || queries != asked)
         fail_msg("%s, view %td, %s: %d reads, %d waits, %d queries in %d frames; %d, %d and %d are known",
                  backend, viewed - views, viewed->kind, crossings, waits, queries, FRAMES, reads, wanted,
                  asked);
