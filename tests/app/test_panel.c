@@ -11,11 +11,12 @@
 #include "render/views/pbsr/pbsr.h"
 #include "render/views/slice/slice.h"
 
-enum { HISTORY = 120, TALL = 5000 }; /* all sections open, and room for more keys */
+enum { HISTORY = 120, TALL = 6000 }; /* all sections open, and room for more keys */
 
-static const char *const sections[] = {
-    "History", "Stages", "Accuracy", "Colours", "Fluids", "Solver",
-    "Hand",    "Touch",  "Glyphs",   "Trails",  "Film",   "More of the view"}; /* Play and View are open */
+static const char *const sections[] = {"History",     "Stages", "Accuracy",        "Colours", "Fluids",
+                                       "Solver",      "Hand",   "Touch",           "Glyphs",  "Trails",
+                                       "Streamlines", "Film",   "More of the view"}; /* Play and View are open
+                                                                                      */
 enum { SECTIONS = sizeof sections / sizeof *sections };
 
 /* Live keys that have no widget, and why: see elsewhere in app/window/panel/panel_keys.c. */
