@@ -4,9 +4,9 @@
 
 #include "render/frame/frame.h"
 #include "render/frame/passes.h"
+#include "sim/error.h"
 #include "sim/gpu/gl.h"
 #include "sim/gpu/particle_buffers.h"
-#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -3,7 +3,7 @@
 #ifndef SLOSH_TEST_LISTS_H
 #define SLOSH_TEST_LISTS_H
 
-#include "slosh/def.h"
+#include "sim/def.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef APP_BASE_FILE_H
 #define APP_BASE_FILE_H
 
-#include "slosh/error.h"
+#include "sim/error.h"
 
 #include <jansson.h>
 #include <limits.h>

@@ -2,7 +2,7 @@
 #include "app/base/program.h"
 
 #include "app/base/file.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -12,7 +12,7 @@
 #include "app/scene/scene.h"
 #include "sim/gpu/gl.h"
 #include "sim/step/method.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <stdio.h>
 

@@ -2,7 +2,7 @@
 
 #include "app/base/file.h"
 #include "app/base/program.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #include "app/base/program.h"
 #include "sim/base/base.h"
 #include "sim/points/points.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <jansson.h>
 #include <math.h>

@@ -4,7 +4,7 @@
 #include "app/cli/cli_private.h"
 #include "app/cli/option_rows.h"
 #include "app/run/playback/playback.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #include "app/files/export.h"
 #include "app/files/snapshot.h"
 #include "app/run/offscreen.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdio.h>

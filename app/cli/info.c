@@ -12,7 +12,7 @@
 #include "sim/kernel/kernel.h"
 #include "sim/start/start.h"
 #include "sim/step/constants.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <errno.h>
 #include <math.h>

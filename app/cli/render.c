@@ -7,7 +7,7 @@
 #include "app/run/playback/playback.h"
 #include "app/run/recording/recording.h"
 #include "app/scene/scene.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdio.h>

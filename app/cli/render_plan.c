@@ -4,7 +4,7 @@
 #include "app/scene/scene.h"
 #include "sim/flow/flow.h"
 #include "sim/start/start.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <string.h>

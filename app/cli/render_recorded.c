@@ -9,7 +9,7 @@
 #include "app/run/session.h"
 #include "render/frame/view.h"
 #include "render/renderer.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 
 #include "app/base/file.h"
 #include "app/base/program.h"
-#include "slosh/error.h"
+#include "sim/error.h"
 
 #include <errno.h>
 #include <jansson.h>

@@ -10,8 +10,8 @@
 #include "render/frame/frame.h"
 #include "render/frame/passes.h"
 #include "render/particles/particles.h"
-#include "slosh/error.h"
-#include "slosh/world.h"
+#include "sim/error.h"
+#include "sim/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -52,7 +52,7 @@ PointPainter point_painter(const PointColors *colors);
 void point_paint(const PointPainter *painter, const SnapshotStep *step, size_t i, uint8_t rgb[3]);
 
 /* The fluid's surface as a mesh, from the particles of a step: the level set of F(r) = sum V_j W_poly6(r -
-   r_j) of include/slosh/mesh.h, also used by pictures. The mesh is closed; normals come from the field's
+   r_j) of sim/mesh.h, also used by pictures. The mesh is closed; normals come from the field's
    gradient, and vertex fields are means weighted by V W. */
 
 /* Settings of a surface. */

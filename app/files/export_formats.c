@@ -1,5 +1,5 @@
 #include "app/files/export.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <assert.h>
 #include <inttypes.h>

@@ -1,4 +1,4 @@
-/* Forces on box and solids over a run (include/slosh/world.h), as a CSV table with a row per frame. Columns:
+/* Forces on box and solids over a run (sim/world.h), as a CSV table with a row per frame. Columns:
    time (s), at the end of the row's mean, and length of the mean (s). Then for the box and for each solid by
    number: force_x, _y, _z (N) and torque_x, _y, _z (N m), along the box's axes. The box's torque is around
    the box's origin, a solid's around its centre. */
@@ -6,7 +6,7 @@
 #define APP_FILES_FORCES_LOG_H
 
 #include "app/base/file.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <jansson.h>
 #include <stdio.h>

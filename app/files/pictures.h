@@ -3,7 +3,7 @@
 #define APP_FILES_PICTURES_H
 
 #include "app/scene/scene.h"
-#include "slosh/error.h"
+#include "sim/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -5,9 +5,9 @@
 
 #include "app/scene/scene.h"
 #include "render/particles/particles.h"
-#include "slosh/error.h"
-#include "slosh/state.h"
-#include "slosh/world.h"
+#include "sim/error.h"
+#include "sim/state.h"
+#include "sim/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -19,7 +19,7 @@
    Group Step#k (k = 0, 1, ... without a gap) is one state. It has the attribute TimeValue (s) and
    one-dimensional datasets with a value per particle. Further attributes are the pose and rates of the box,
    gravity, the step number and `restart`: the WorldNumbers of
-   include/slosh/state.h, which with the particles restart a run. The last attribute written is `complete`.
+   sim/state.h, which with the particles restart a run. The last attribute written is `complete`.
    All values are in SI units and in the box's frame; pose and rates of the box are in the world's frame.
    Attributes of the root describe the scene: `settings` has each key as printed by slosh info, `units` the
    unit of each dataset. */

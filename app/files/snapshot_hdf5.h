@@ -3,7 +3,7 @@
 #define APP_FILES_SNAPSHOT_HDF5_H
 
 #include "app/files/snapshot.h"
-#include "slosh/error.h"
+#include "sim/error.h"
 
 #include <hdf5.h>
 #include <stdint.h>

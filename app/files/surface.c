@@ -2,8 +2,8 @@
 #include "app/files/export.h"
 #include "app/files/snapshot.h"
 #include "sim/base/base.h"
-#include "slosh/mesh.h"
-#include "slosh/world.h"
+#include "sim/mesh.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 #include "app/input/input.h"
 
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <pthread.h>

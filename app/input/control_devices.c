@@ -1,6 +1,6 @@
 #include "app/input/input.h"
 
-#include "slosh/def.h"
+#include "sim/def.h"
 
 #include <stdio.h>
 #include <string.h>

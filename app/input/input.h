@@ -8,10 +8,10 @@
 #include "app/run/recording/recording.h"
 #include "app/scene/scene.h"
 #include "render/frame/frame.h"
+#include "sim/def.h"
+#include "sim/error.h"
 #include "sim/flow/flow.h"
-#include "slosh/def.h"
-#include "slosh/error.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -21,7 +21,7 @@
 
    Each device adds its part to a HandInput. Drags and rates move the box permanently; offsets (sticks)
    move the box while they last, as does the turn of a device held like the box. The hand sums up all parts
-   in the axes of the picture; the filter decides how fast the box follows (include/slosh/def.h). */
+   in the axes of the picture; the filter decides how fast the box follows (sim/def.h). */
 
 /* Input of all devices since the last call. Zero: devices at rest. */
 typedef struct HandInput {

@@ -6,7 +6,7 @@
 #include "app/scene/scene.h"
 #include "app/scene/yaml/yaml.h"
 #include "sim/base/key.h"
-#include "slosh/def.h"
+#include "sim/def.h"
 
 #include <errno.h>
 #include <math.h>

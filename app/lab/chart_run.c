@@ -3,7 +3,7 @@
 #include "app/lab/error_chart.h"
 #include "app/run/measure/measure.h"
 #include "sim/step/method.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -15,7 +15,7 @@
 #ifndef APP_LAB_SCALING_H
 #define APP_LAB_SCALING_H
 
-#include "slosh/error.h"
+#include "sim/error.h"
 
 /* A run, as means over ranks and steps. */
 typedef struct CostSample {

@@ -6,7 +6,7 @@
 #include "app/run/measure/measure.h"
 #include "app/scene/scene.h"
 #include "sim/base/key.h"
-#include "slosh/def.h"
+#include "sim/def.h"
 
 #include <stdint.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #include "app/lab/stability.h"
 #include "app/run/measure/measure.h"
 #include "app/run/offscreen.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <errno.h>
 #include <math.h>

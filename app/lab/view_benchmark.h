@@ -6,9 +6,9 @@
 #include "app/run/offscreen.h"
 #include "app/scene/scene.h"
 #include "render/frame/view.h"
-#include "slosh/def.h"
-#include "slosh/error.h"
-#include "slosh/world.h"
+#include "sim/def.h"
+#include "sim/error.h"
+#include "sim/world.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,7 +1,7 @@
 #include "app/ranks/ranks.h"
 
 #include "sim/ranks/ranks.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <mpi.h>
 #include <stdlib.h>

@@ -8,8 +8,8 @@
 #include "app/run/measure/measure.h"
 #include "app/run/session.h"
 #include "app/scene/scene.h"
-#include "slosh/error.h"
-#include "slosh/world.h"
+#include "sim/error.h"
+#include "sim/world.h"
 
 #include <stdbool.h>
 

@@ -1,7 +1,7 @@
 #include "app/run/simulator_private.h"
+#include "sim/state.h"
 #include "sim/step/method.h"
-#include "slosh/state.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdlib.h>

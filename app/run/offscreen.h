@@ -5,9 +5,9 @@
 
 #include "render/particles/particles.h"
 #include "render/renderer.h"
+#include "sim/error.h"
 #include "sim/gpu/gl.h"
-#include "slosh/error.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <stdbool.h>
 

@@ -7,9 +7,9 @@
 #include "app/run/measure/measure.h"
 #include "app/run/recording/recording.h"
 #include "app/scene/scene.h"
-#include "slosh/error.h"
-#include "slosh/state.h"
-#include "slosh/world.h"
+#include "sim/error.h"
+#include "sim/state.h"
+#include "sim/world.h"
 
 #include <stdbool.h>
 #include <stdint.h>

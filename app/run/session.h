@@ -12,8 +12,8 @@
 #include "app/run/recording/recording.h"
 #include "app/run/run.h"
 #include "app/scene/scene.h"
-#include "slosh/error.h"
-#include "slosh/world.h"
+#include "sim/error.h"
+#include "sim/world.h"
 
 #include <jansson.h>
 #include <stdbool.h>

@@ -1,5 +1,5 @@
 #include "app/run/simulator_private.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <poll.h>

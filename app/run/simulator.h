@@ -23,9 +23,9 @@
 #include "app/run/recording/recording.h"
 #include "app/scene/scene.h"
 #include "render/particles/particles.h"
+#include "sim/error.h"
 #include "sim/gpu/gl.h"
-#include "slosh/error.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>

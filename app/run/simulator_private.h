@@ -8,8 +8,8 @@
 #include "app/run/session.h"
 #include "app/run/simulator.h"
 #include "app/scene/scene.h"
-#include "slosh/error.h"
-#include "slosh/world.h"
+#include "sim/error.h"
+#include "sim/world.h"
 
 #include <pthread.h>
 #include <stdbool.h>

@@ -3,7 +3,7 @@
 #include "app/run/recording/recording.h"
 #include "app/run/session.h"
 #include "app/run/simulator_private.h"
-#include "slosh/state.h"
+#include "sim/state.h"
 
 #include <math.h>
 #include <stdio.h>

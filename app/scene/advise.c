@@ -2,15 +2,15 @@
 
 #include "app/scene/scene_private.h"
 #include "render/frame/view.h"
+#include "sim/def.h"
 #include "sim/def/fluids.h"
+#include "sim/error.h"
 #include "sim/solids/solid.h"
 #include "sim/start/start.h"
 #include "sim/step/backend.h"
 #include "sim/step/constants.h"
 #include "sim/step/method.h"
 #include "sim/step/world.h"
-#include "slosh/def.h"
-#include "slosh/error.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -313,7 +313,7 @@ static double greatest_shaking(const WorldDef *def)
     return sum;
 }
 
-/* Warns of parts left out of the force on a solid: include/slosh/world.h. */
+/* Warns of parts left out of the force on a solid: sim/world.h. */
 static void advise_floating(const YamlTree *tree, const WorldDef *def, Notes *notes)
 {
     for (int k = 0; k < def->solid_count; k++) {

@@ -6,8 +6,8 @@
 #include "sim/gpu/particle_buffers.h"
 #include "sim/solids/solid.h"
 #include "sim/start/start.h"
+#include "sim/state.h"
 #include "sim/step/backend.h"
-#include "slosh/state.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #include "app/scene/scene_private.h"
 #include "sim/base/base.h"
 #include "sim/base/key.h"
-#include "slosh/def.h"
+#include "sim/def.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,10 +5,10 @@
 #include "render/frame/view.h"
 #include "render/renderer.h"
 #include "sim/base/key_rows.h"
+#include "sim/def.h"
 #include "sim/step/backend.h"
 #include "sim/step/method.h"
-#include "slosh/def.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <assert.h>
 #include <pthread.h>

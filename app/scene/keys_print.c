@@ -5,7 +5,7 @@
 #include "app/scene/yaml/yaml.h"
 #include "sim/base/base.h"
 #include "sim/base/key.h"
-#include "slosh/def.h"
+#include "sim/def.h"
 
 #include <stddef.h>
 #include <stdlib.h>

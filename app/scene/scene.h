@@ -8,9 +8,9 @@
 #include "render/frame/frame.h"
 #include "render/renderer.h"
 #include "sim/base/key.h"
+#include "sim/def.h"
+#include "sim/error.h"
 #include "sim/flow/flow.h"
-#include "slosh/def.h"
-#include "slosh/error.h"
 
 #include <dirent.h>
 #include <jansson.h>

@@ -1,7 +1,7 @@
 /* Draws a picture: the fluid, the marks and the overlay; updates counters. */
 #include "app/window/model.h"
 #include "app/window/play_private.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <string.h>
 

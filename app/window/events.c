@@ -1,6 +1,6 @@
 /* Turns window events into requests. */
 #include "app/window/play_private.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 /* True for mouse events before the first picture. */
 static bool too_early(const Play *play, WindowEventKind kind)

@@ -3,11 +3,11 @@
 #include "app/base/program.h"
 #include "app/files/pictures.h"
 #include "app/scene/scene.h"
+#include "sim/error.h"
 #include "sim/flow/flow.h"
 #include "sim/gpu/gl.h"
 #include "sim/start/start.h"
-#include "slosh/error.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -12,9 +12,9 @@
 #include "app/run/simulator.h"
 #include "app/scene/scene.h"
 #include "render/particles/particles.h"
+#include "sim/error.h"
 #include "sim/gpu/gl.h"
 #include "sim/gpu/particle_buffers.h"
-#include "slosh/error.h"
 
 #include <stdatomic.h>
 #include <stdbool.h>

@@ -2,7 +2,7 @@
 #include "app/files/pictures.h"
 #include "app/window/play_private.h"
 #include "sim/gpu/gl.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

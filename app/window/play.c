@@ -8,7 +8,7 @@
 #include "app/window/model.h"
 #include "app/window/play_private.h"
 #include "sim/gpu/gl.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <setjmp.h>

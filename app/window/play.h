@@ -9,9 +9,9 @@
 #include "app/scene/scene.h"
 #include "app/window/panel/panel.h"
 #include "render/renderer.h"
-#include "slosh/def.h"
-#include "slosh/error.h"
-#include "slosh/world.h"
+#include "sim/def.h"
+#include "sim/error.h"
+#include "sim/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
 #include "app/window/play_private.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdio.h>

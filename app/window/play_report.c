@@ -5,7 +5,7 @@
 #include "app/window/play.h"
 #include "app/window/play_private.h"
 #include "sim/gpu/gl.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdio.h>

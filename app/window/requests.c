@@ -5,7 +5,7 @@
 #include "render/frame/frame.h"
 #include "render/frame/view.h"
 #include "render/picking/picking.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #include "app/scene/yaml/yaml.h"
 #include "app/window/play.h"
 #include "sim/start/start.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <dirent.h>
 #include <epoxy/gl.h>

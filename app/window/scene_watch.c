@@ -1,7 +1,7 @@
 #include "app/scene/scene.h"
 #include "app/window/model.h"
 #include "app/window/play_private.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* A recorded run as the window's source, built on app/run/playback/playback.h. */
 #include "app/window/model.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 #define _GNU_SOURCE /* POLLRDHUP, RTLD_DEFAULT */
 #include "app/window/window.h"
 
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <epoxy/gl.h>
 

@@ -8,7 +8,7 @@
 #include "app/scene/scene.h"
 #include "render/frame/view.h"
 #include "render/ui/ui.h"
-#include "slosh/error.h"
+#include "sim/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

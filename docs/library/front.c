@@ -1,5 +1,5 @@
 /* A dam breaks: how far its front has come, every 0.1 s. */
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <stdio.h>
 #include <stdlib.h>

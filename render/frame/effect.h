@@ -7,8 +7,8 @@
 #include "render/frame/frame.h"
 #include "render/frame/passes.h"
 #include "render/ui/text.h"
+#include "sim/error.h"
 #include "sim/gpu/particle_buffers.h"
-#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -4,11 +4,11 @@
 #define RENDER_FRAME_FRAME_H
 
 #include "sim/base/base.h"
+#include "sim/def.h"
+#include "sim/error.h"
 #include "sim/gpu/gl.h"
 #include "sim/gpu/particle_buffers.h"
-#include "slosh/def.h"
-#include "slosh/error.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -6,9 +6,9 @@
 
 #include "render/frame/frame.h"
 #include "render/ui/text.h"
+#include "sim/def.h"
+#include "sim/error.h"
 #include "sim/gpu/particle_buffers.h"
-#include "slosh/def.h"
-#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -8,7 +8,7 @@
 #include "sim/flow/flow.h"
 #include "sim/gpu/gl.h"
 #include "sim/start/start.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <assert.h>
 #include <stdio.h>

@@ -7,9 +7,9 @@
 #include "render/ui/text.h"
 #include "sim/base/base.h"
 #include "sim/base/key.h"
+#include "sim/error.h"
 #include "sim/gpu/particle_buffers.h"
 #include "sim/points/points.h"
-#include "slosh/error.h"
 
 /* Views: the ways to show a fluid. One folder per view; the list is render/lists.c. */
 

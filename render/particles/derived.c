@@ -2,8 +2,8 @@
 
 #include "shaders/derived/derived_bindings.h"
 #include "shaders/shared/bindings.h"
+#include "sim/def.h"
 #include "sim/gpu/gl.h"
-#include "slosh/def.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

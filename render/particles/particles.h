@@ -4,11 +4,11 @@
 #define RENDER_PARTICLES_PARTICLES_H
 
 #include "render/frame/frame.h"
+#include "sim/def.h"
+#include "sim/error.h"
 #include "sim/gpu/particle_buffers.h"
-#include "slosh/def.h"
-#include "slosh/error.h"
-#include "slosh/mesh.h"
-#include "slosh/world.h"
+#include "sim/mesh.h"
+#include "sim/world.h"
 
 #include <pthread.h>
 #include <stdbool.h>
@@ -355,7 +355,7 @@ void particle_curves_bind(const ParticleCurves *curves);
    `particles->scalar[SCALAR_VORTICITY]` is a buffer of floats, and `particles->vector[VECTOR_VORTICITY]` a
    buffer of vec4: x y z in the box's axes, w undefined. Both in the order of the other attributes. Buffer
    0: not asked for, or the state lacks the inputs. By name: scalar_list and vector_list
-   (include/slosh/world.h), as CHOICE_OF with KEY_INDEX reads names.
+   (sim/world.h), as CHOICE_OF with KEY_INDEX reads names.
 
    Gradients: grad s = M^-1 sum_j w_j (s_j - s_i) d_j, M = sum_j w_j d_j d_j, d_j = x_j - x_i, w_j = V_j
    |W'(r)| / r with Wendland's C2 kernel of the support radius: the sum of Monaghan 2005 (Rep. Prog. Phys.

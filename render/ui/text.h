@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-#include "slosh/error.h"
+#include "sim/error.h"
 
 typedef struct Text Text;
 

@@ -17,7 +17,7 @@ extern "C" {
 #endif
 
 #include "sim/base/base.h"
-#include "slosh/error.h"
+#include "sim/error.h"
 
 /* The scale of a slider: converts values to positions and back, without state. */
 typedef struct UiScale {

@@ -12,8 +12,8 @@
 #ifndef RENDER_WATER_FOAM_PRIVATE_H
 #define RENDER_WATER_FOAM_PRIVATE_H
 
+#include "sim/error.h"
 #include "sim/gpu/particle_buffers.h"
-#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

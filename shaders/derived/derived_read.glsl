@@ -28,7 +28,7 @@ float carried_of(uint i) { return scalar_words[i * scalar_stride]; }
 float carried_of(uint i) { return 0.0; }
 #endif
 
-#ifdef BIRTHS // the births of include/slosh/state.h, found by the id
+#ifdef BIRTHS // the births of sim/state.h, found by the id
 layout(std430, binding = IDS_STORAGE) readonly buffer Ids { uint id_words[]; };
 layout(std430, binding = BIRTHS_STORAGE) readonly buffer Births { uvec4 births[]; }; // first id, upper half of the id, time
 layout(location = BIRTHS_COUNT_AT) uniform uint births_count;

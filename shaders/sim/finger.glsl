@@ -1,4 +1,4 @@
-// Velocity change by a finger: finger_apply of include/slosh/world.h, with the same operations.
+// Velocity change by a finger: finger_apply of sim/world.h, with the same operations.
 float finger_share(float x)
 {
     float y = min(x, 16.0) * (1.0 / 32.0);

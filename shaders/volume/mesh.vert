@@ -1,5 +1,5 @@
 // The triangles of a listed cube (mesh_list.comp), 15 vertices each: vertices without a triangle are outside the picture. After: W.
-// Lorensen, H. Cline, "Marching cubes", 1987, with the cases of the exported mesh (include/slosh/mesh.h).
+// Lorensen, H. Cline, "Marching cubes", 1987, with the cases of the exported mesh (sim/mesh.h).
 #include "common/frame.glsl"
 #include "volume/mesh.glsl"
 

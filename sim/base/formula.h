@@ -2,7 +2,7 @@
 #ifndef SIM_BASE_FORMULA_H
 #define SIM_BASE_FORMULA_H
 
-#include "slosh/def.h"
+#include "sim/def.h"
 
 /* At a place: value, first derivatives, and second ones by xx, yy, zz, xy, yz, zx. */
 typedef struct FormulaJet {

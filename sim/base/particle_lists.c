@@ -1,7 +1,7 @@
 #include "sim/base/base.h"
 
-#include "slosh/mesh.h"
-#include "slosh/state.h"
+#include "sim/mesh.h"
+#include "sim/state.h"
 
 #include <math.h>
 #include <stdlib.h>

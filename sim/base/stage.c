@@ -1,6 +1,6 @@
 #include "sim/base/base.h"
-#include "slosh/error.h"
-#include "slosh/world.h"
+#include "sim/error.h"
+#include "sim/world.h"
 
 #include <pthread.h>
 #include <search.h>

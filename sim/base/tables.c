@@ -1,6 +1,6 @@
 #include "sim/base/base.h"
 
-#include "slosh/def.h"
+#include "sim/def.h"
 
 #include <math.h>
 #include <stddef.h>

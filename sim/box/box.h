@@ -3,8 +3,8 @@
 #define SIM_BOX_BOX_H
 
 #include "shaders/sim/box/wall_cushion_part.h"
+#include "sim/def.h"
 #include "sim/kernel/kernel.h"
-#include "slosh/def.h"
 
 #include <math.h>
 #include <stdbool.h>

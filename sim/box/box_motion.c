@@ -1,5 +1,5 @@
 #include "sim/box/motion_rows.h"
-#include "slosh/def.h"
+#include "sim/def.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Rows of keys for a list of Motion (include/slosh/def.h), for each owner of such a list. Include in such .c
+/* Rows of keys for a list of Motion (sim/def.h), for each owner of such a list. Include in such .c
    files only:
 
        #define MINE(KIND, NAME, HELP) MOTION_ROWS("mine.motion[]", KIND, NAME, HELP)
@@ -8,7 +8,7 @@
 #define SIM_BOX_MOTION_ROWS_H
 
 #include "sim/base/key_rows.h"
-#include "slosh/def.h"
+#include "sim/def.h"
 
 #define MOTION(field) offsetof(Motion, field)
 

@@ -3,7 +3,7 @@
 
 #include "sim/base/base.h"
 #include "sim/cpu/pairs.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 
 #include "sim/base/base.h"
 #include "sim/base/key_rows.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdlib.h>

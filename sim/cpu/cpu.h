@@ -7,7 +7,7 @@
 #include "sim/def/fluids.h"
 #include "sim/step/backend.h"
 #include "sim/step/method.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 typedef ParticleColumns CpuParticles;
 

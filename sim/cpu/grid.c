@@ -5,7 +5,7 @@
 
 #include "sim/base/base.h"
 #include "sim/cpu/lanes.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <stdlib.h>
 #include <string.h>

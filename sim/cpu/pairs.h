@@ -10,9 +10,9 @@
 
 #include "sim/base/base.h"
 #include "sim/box/box.h"
+#include "sim/error.h"
+#include "sim/state.h"
 #include "sim/step/backend.h"
-#include "slosh/error.h"
-#include "slosh/state.h"
 
 #include <stdbool.h>
 #include <stddef.h>

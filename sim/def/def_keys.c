@@ -1,7 +1,7 @@
 #include "sim/base/base.h"
 #include "sim/base/key_rows.h"
+#include "sim/def.h"
 #include "sim/def/fluids.h"
-#include "slosh/def.h"
 
 #include <stdio.h>
 

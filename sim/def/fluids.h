@@ -3,8 +3,8 @@
 #define SIM_DEF_FLUIDS_H
 
 #include "sim/box/box.h"
+#include "sim/def.h"
 #include "sim/kernel/kernel.h"
-#include "slosh/def.h"
 
 typedef enum TensionModel {
     TENSION_NONE,

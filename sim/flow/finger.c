@@ -1,7 +1,7 @@
 #include "sim/flow/flow.h"
 
 #include "sim/base/key_rows.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,9 +4,9 @@
 #define SIM_FLOW_FLOW_H
 
 #include "sim/box/box.h"
-#include "slosh/def.h"
-#include "slosh/error.h"
-#include "slosh/world.h"
+#include "sim/def.h"
+#include "sim/error.h"
+#include "sim/world.h"
 
 /* Inflow and outflow: emitters send out a lattice layer by layer; drains remove fluid. */
 

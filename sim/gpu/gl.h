@@ -4,9 +4,9 @@
 #define SIM_GPU_GL_H
 
 #include "sim/base/base.h"
-#include "slosh/def.h"
-#include "slosh/error.h"
-#include "slosh/world.h"
+#include "sim/def.h"
+#include "sim/error.h"
+#include "sim/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -210,7 +210,7 @@ unsigned program_create_pair(const char *label, const char *vertex, const char *
    program. */
 void program_set_directory(const char *directory);
 
-/* The clock of GPU stages, under the names of include/slosh/world.h.
+/* The clock of GPU stages, under the names of sim/world.h.
 
    `gl`: timestamp queries, read when available (two frames later), without waiting. On a software renderer
    such queries are wrong: work is deferred, and timestamps are taken at recording, not at execution. There,

@@ -1,9 +1,9 @@
-/* Layout of the columns of include/slosh/state.h in the packed buffers or textures of a GPU backend, with
+/* Layout of the columns of sim/state.h in the packed buffers or textures of a GPU backend, with
    conversion both ways: for initial states, snapshots and reports, never within a frame. */
 #ifndef SIM_GPU_PACKING_H
 #define SIM_GPU_PACKING_H
 
-#include "slosh/state.h"
+#include "sim/state.h"
 
 struct Method; /* sim/step/method.h */
 

@@ -2,9 +2,9 @@
 #ifndef SIM_GPU_PARTICLE_BUFFERS_H
 #define SIM_GPU_PARTICLE_BUFFERS_H
 
-#include "slosh/def.h"
-#include "slosh/state.h"
-#include "slosh/world.h"
+#include "sim/def.h"
+#include "sim/state.h"
+#include "sim/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 #include "sim/base/base.h"
 #include "sim/base/simd.h"
 #include "sim/kernel/kernel.h"
-#include "slosh/mesh.h"
+#include "sim/mesh.h"
 
 #include <math.h>
 #include <string.h>

@@ -6,7 +6,7 @@
    No diagonal of a loop's triangles may lie in a face of the cube: the neighbouring cube could have the same
    diagonal, and four triangles would meet there. Own code: GTS 0.7.6, the only C library for marching cubes,
    takes 14 times as long, and its mesh of noise is not closed. */
-#include "slosh/mesh.h"
+#include "sim/mesh.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
+#include "sim/mesh.h"
 #include "sim/mesh/mesh_shape.h"
-#include "slosh/mesh.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 #include "sim/mesh/mesh_shape.h"
 
 #include "sim/base/base.h"
-#include "slosh/mesh.h"
+#include "sim/mesh.h"
 
 #include <math.h>
 #include <stdio.h>

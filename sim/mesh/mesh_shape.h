@@ -4,7 +4,7 @@
 #define SIM_MESH_MESH_SHAPE_H
 
 #include "sim/base/base.h"
-#include "slosh/error.h"
+#include "sim/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -3,9 +3,9 @@
 #ifndef SIM_POINTS_POINTS_H
 #define SIM_POINTS_POINTS_H
 
-#include "slosh/def.h"
-#include "slosh/error.h"
-#include "slosh/mesh.h"
+#include "sim/def.h"
+#include "sim/error.h"
+#include "sim/mesh.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -188,7 +188,7 @@ LevelField level_plane(const double low[3], const double high[3], const double p
                        const double normal[3]);
 
 /* The particles' field itself, summed over the neighbours of each position: F(r) = sum V_j W_poly6(|r -
-   r_j|, h), and a carried scalar, sum V s W / sum V W. Equal to field_at of include/slosh/mesh.h, which sums
+   r_j|, h), and a carried scalar, sum V s W / sum V W. Equal to field_at of sim/mesh.h, which sums
    over all particles. */
 
 typedef struct SphField SphField; /* the particles, sorted by cell */
@@ -209,7 +209,7 @@ LevelField level_sph_inside(const SphField *from);
 /* For tests: the scalar; 0 without a particle within h. The particles must have a scalar. */
 LevelField level_sph_scalar(const SphField *from);
 
-/* Values on a grid as a field: volume data, or the fluid's field of include/slosh/mesh.h. */
+/* Values on a grid as a field: volume data, or the fluid's field of sim/mesh.h. */
 
 /* Owned by the caller, with its values; must outlive all fields made of it. */
 typedef struct VolumeData {

@@ -1,8 +1,8 @@
 #include "sim/points/points.h"
 
 #include "sim/base/base.h"
+#include "sim/mesh.h"
 #include "sim/points/walk.h"
-#include "slosh/mesh.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 
 #include "sim/base/base.h"
 #include "sim/cpu/cpu.h"
-#include "slosh/state.h"
+#include "sim/state.h"
 
 #include <mpi.h>
 #include <stddef.h>

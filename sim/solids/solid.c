@@ -1,6 +1,6 @@
+#include "sim/def.h"
 #include "sim/mesh/mesh_shape.h"
-#include "slosh/def.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -4,9 +4,9 @@
 #define SIM_SOLIDS_SOLID_H
 
 #include "sim/box/box.h"
-#include "slosh/def.h"
-#include "slosh/error.h"
-#include "slosh/state.h"
+#include "sim/def.h"
+#include "sim/error.h"
+#include "sim/state.h"
 
 #include <stddef.h>
 

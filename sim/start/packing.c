@@ -1,6 +1,6 @@
 #include "sim/start/start.h"
 
-#include "slosh/def.h"
+#include "sim/def.h"
 
 #include <math.h>
 #include <stdlib.h>

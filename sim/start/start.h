@@ -3,10 +3,10 @@
 #ifndef SIM_START_START_H
 #define SIM_START_START_H
 
+#include "sim/def.h"
 #include "sim/flow/flow.h"
 #include "sim/kernel/kernel.h"
 #include "sim/solids/solid.h"
-#include "slosh/def.h"
 
 /* The initial state: the fills of a def become particles, each fill on its lattice.
    A lattice is half a layer from touching walls and in line with touching fills, so fluids never overlap.

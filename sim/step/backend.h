@@ -8,10 +8,10 @@
 #include "sim/box/box.h"
 #include "sim/flow/flow.h"
 #include "sim/solids/solid.h"
+#include "sim/state.h"
 #include "sim/step/constants.h"
 #include "sim/step/method.h"
-#include "slosh/state.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 
@@ -112,7 +112,7 @@ static inline void sums_add(WorldSums *sums, double m, const double x[3], const 
     sums->max_speed = fmax(sums->max_speed, sqrt(speed2));
 }
 
-/* A particle's contribution to a world's gauge (include/slosh/world.h), for the backends. A gauge needs
+/* A particle's contribution to a world's gauge (sim/world.h), for the backends. A gauge needs
    nothing else of the state. */
 
 /* Adds a particle at x (m) with velocity v (m/s) and `compression` to the sums; the mean is not yet divided
@@ -180,7 +180,7 @@ struct BackendMicro;    /* sim/step/method.h */
 struct Iteration;       /* sim/step/substep.h */
 struct IterationFound;  /* sim/step/substep.h */
 struct Substep;         /* sim/step/substep.h */
-struct Forces;          /* include/slosh/world.h */
+struct Forces;          /* sim/world.h */
 struct ParticleBuffers; /* sim/gpu/particle_buffers.h */
 
 /* The positive part of a column. */
@@ -256,7 +256,7 @@ typedef struct Backend {
     void (*kick)(void *state, const float gravity[3], float dt);
     /* Findings of the kicks since the last call or `load`; waits for the kicks. */
     StepWatch (*watch)(void *state);
-    /* Applies include/slosh/world.h to all fluid particles. */
+    /* Applies sim/world.h to all fluid particles. */
     void (*touch)(void *state, const FingerStep *finger);
     /* Sets particles in each guide to the guide's velocity; returns the work, J, if `energy` exists. */
     double (*guide)(void *state, const Guide *guides, int count);

@@ -1,7 +1,7 @@
+#include "sim/state.h"
 #include "sim/step/backend.h"
 #include "sim/step/constants.h"
 #include "sim/step/method.h"
-#include "slosh/state.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,13 +3,13 @@
 #define SIM_STEP_CONSTANTS_H
 
 #include "sim/box/box.h"
+#include "sim/def.h"
 #include "sim/def/fluids.h"
+#include "sim/error.h"
 #include "sim/kernel/kernel.h"
 #include "sim/solids/solid.h"
-#include "slosh/def.h"
-#include "slosh/error.h"
-#include "slosh/state.h"
-#include "slosh/world.h"
+#include "sim/state.h"
+#include "sim/world.h"
 
 #include <stdbool.h>
 
@@ -194,7 +194,7 @@ typedef struct Constants {
 
 /* Returns false with the reason: def out of range, too many cells, or memory short. */
 bool constants_create(Constants *constants, const WorldDef *def, Error *error);
-/* Takes the live settings of the def (include/slosh/state.h). Returns false with the reason, for example
+/* Takes the live settings of the def (sim/state.h). Returns false with the reason, for example
    short memory, with nothing changed. */
 bool constants_change(Constants *constants, const WorldDef *def, Error *error);
 

@@ -3,12 +3,12 @@
 #define SIM_STEP_METHOD_H
 
 #include "sim/base/key.h"
+#include "sim/def.h"
 #include "sim/def/fluids.h"
+#include "sim/error.h"
 #include "sim/kernel/kernel.h"
-#include "slosh/def.h"
-#include "slosh/error.h"
-#include "slosh/state.h"
-#include "slosh/world.h"
+#include "sim/state.h"
+#include "sim/world.h"
 
 struct ApparentGravity; /* sim/box/box.h */
 struct Constants;       /* sim/step/constants.h */

@@ -4,7 +4,7 @@
 
 #include "sim/solids/solid.h"
 #include "sim/step/backend.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 /* Data of a method's substep. */
 

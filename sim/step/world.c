@@ -3,8 +3,8 @@
 #include "sim/base/base.h"
 #include "sim/flow/flow.h"
 #include "sim/solids/solid.h"
-#include "slosh/state.h"
-#include "slosh/world.h"
+#include "sim/state.h"
+#include "sim/world.h"
 
 #include <assert.h>
 #include <math.h>

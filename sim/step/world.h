@@ -2,12 +2,12 @@
 #ifndef SIM_STEP_WORLD_H
 #define SIM_STEP_WORLD_H
 
+#include "sim/def.h"
+#include "sim/state.h"
 #include "sim/step/backend.h"
 #include "sim/step/method.h"
 #include "sim/step/substep.h"
-#include "slosh/def.h"
-#include "slosh/state.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 /* Worlds whose energy is not watched. */
 

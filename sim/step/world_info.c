@@ -2,7 +2,7 @@
 #include "sim/base/base.h"
 #include "sim/solids/solid.h"
 #include "sim/step/world.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <stdlib.h>
 #include <string.h>

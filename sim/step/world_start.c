@@ -5,7 +5,7 @@
 #include "sim/step/backend.h"
 #include "sim/step/method.h"
 #include "sim/step/world.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,8 +1,8 @@
 #include "sim/base/key.h"
 #include "sim/solids/solid.h"
+#include "sim/state.h"
 #include "sim/step/method.h"
 #include "sim/step/world.h"
-#include "slosh/state.h"
 
 #include <assert.h>
 #include <math.h>

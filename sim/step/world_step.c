@@ -2,7 +2,7 @@
 #include "sim/flow/flow.h"
 #include "sim/step/substep.h"
 #include "sim/step/world.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 

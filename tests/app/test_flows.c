@@ -2,7 +2,7 @@
    docs/labbook/validation.md has the errors at full resolution. */
 #include "tests/scene/scene_text.h"
 
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 
 #include "app/bench/cases/case.h"
 #include "app/run/measure/measure.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 enum { MOST = 4000 };
 

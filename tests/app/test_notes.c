@@ -5,7 +5,7 @@
 #include "app/scene/yaml/yaml.h"
 #include "app/window/model.h"
 #include "sim/gpu/gl.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 #include "tests/scene/scene_text.h"
 
 static void a_line_is_said_once(void **state)

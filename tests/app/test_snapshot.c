@@ -4,7 +4,7 @@
 
 #include "app/files/snapshot.h"
 #include "sim/methods/mueller/mueller.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <hdf5.h>
 #include <math.h>

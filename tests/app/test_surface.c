@@ -2,7 +2,7 @@
  * fields. */
 #include "app/files/export.h"
 #include "sim/kernel/kernel.h"
-#include "slosh/mesh.h"
+#include "sim/mesh.h"
 #include "tests/closed_mesh.h"
 
 #include <math.h>

@@ -6,7 +6,7 @@
 #include "app/run/recording/recording.h"
 #include "app/scene/scene.h"
 #include "sim/gpu/gl.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 #include "tests/sim/toy_method.h"
 #include "tests/sim/toy_shaders.h"
 

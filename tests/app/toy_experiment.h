@@ -7,7 +7,7 @@
 #include "app/cli/cli.h"
 #include "app/cli/option_rows.h"
 #include "app/lab/experiment.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 typedef struct CalmRow {
     uint64_t key;

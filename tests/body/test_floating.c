@@ -3,7 +3,7 @@
 
 #include "../sim/fixture.h"
 
-#include "slosh/state.h"
+#include "sim/state.h"
 
 enum { METHODS = 4 };
 

@@ -1,6 +1,6 @@
 /* Slow fluid far from the middle of a wide box goes where it would go in the middle (sim/box/box.h). */
 #include "sim/box/box.h"
-#include "slosh/state.h"
+#include "sim/state.h"
 #include "tests/sim/fixture.h"
 
 enum { FAR = 4, STEPS = 400 };

@@ -241,11 +241,11 @@ class Library(CommandTest):
 
     def test_headers_stand_alone(self):
         """Each as the first; and no header of the solver's own parts."""
-        names = [os.path.relpath(os.path.join(folder, name), f'{self.prefix}/include/slosh')
-                 for folder, _, files in os.walk(f'{self.prefix}/include/slosh') for name in files]
+        names = [os.path.relpath(os.path.join(folder, name), f'{self.prefix}/include/slosh/sim')
+                 for folder, _, files in os.walk(f'{self.prefix}/include/slosh/sim') for name in files]
         self.assertEqual(sorted(names), ['def.h', 'error.h', 'mesh.h', 'state.h', 'world.h'])
         for name in [*names, None]:
-            self.write(f'{names.index(name) if name else "all"}.c', ''.join(f'#include "slosh/{n}"\n' for n in ([name] if name else names)))
+            self.write(f'{names.index(name) if name else "all"}.c', ''.join(f'#include "sim/{n}"\n' for n in ([name] if name else names)))
         self.compile(self.path('all.c'), '-fsyntax-only', *(self.path(f'{k}.c') for k in range(len(names))))
 
     def test_no_other_names(self):

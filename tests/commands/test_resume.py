@@ -329,8 +329,8 @@ class Resume(ResumeTest):
             self.assertIn(said, answer)
             self.assertRegex(answer, r'; only the \d+ before it can be exported\n')
 
-    MARK = 43  # doubles of EnergyMark (include/slosh/state.h)
-    BODIES = 16 * 25  # of the solids that float (include/slosh/state.h)
+    MARK = 43  # doubles of EnergyMark (sim/state.h)
+    BODIES = 16 * 25  # of the solids that float (sim/state.h)
     LAST = MARK + 11 + BODIES  # with what stands behind it, the last of the restart's numbers
 
     def test_a_file_whose_energy_was_watched_in_another_way(self):

@@ -5,7 +5,7 @@
 #include "tests/device/report_fixture.h"
 
 #include "app/input/device/device.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <pthread.h>
 #include <stdio.h>

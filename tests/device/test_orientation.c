@@ -6,7 +6,7 @@
 #include "tests/tolerance.h"
 
 #include "app/input/device/device.h"
-#include "slosh/def.h"
+#include "sim/def.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #include "tests/app/output_fixture.h"
 
 #include "app/input/device/device.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <signal.h>
 #include <sys/resource.h>

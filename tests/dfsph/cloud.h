@@ -4,7 +4,7 @@
 
 #include "tests/sim/fixture.h"
 
-#include "slosh/state.h"
+#include "sim/state.h"
 
 enum { SIDE = 5, N = SIDE * SIDE * SIDE };
 

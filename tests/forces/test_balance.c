@@ -1,9 +1,9 @@
-/* What box and solids feel (include/slosh/world.h), with all methods: against the fluid's momentum, and
+/* What box and solids feel (sim/world.h), with all methods: against the fluid's momentum, and
  * Archimedes. */
 #include "tests/sim/fixture.h"
 
 #include "sim/methods/wcsph/wcsph.h"
-#include "slosh/state.h"
+#include "sim/state.h"
 
 enum { METHODS = sizeof fixture_method_names / sizeof *fixture_method_names };
 

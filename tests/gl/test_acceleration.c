@@ -4,7 +4,7 @@
 #include "tests/lists.h"
 
 #include "render/particles/particles.h"
-#include "slosh/state.h"
+#include "sim/state.h"
 
 static const char *const backends[] = {"cpu", "compute"};
 

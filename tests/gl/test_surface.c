@@ -6,7 +6,7 @@
 #include "sim/gpu/points/points_gpu.h"
 #include "sim/points/points.h"
 #include "sim/points/walk.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 enum { SIDE = 20 };
 

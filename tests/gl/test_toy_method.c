@@ -7,7 +7,7 @@
 
 #include "sim/gpu/compute/compute.h"
 #include "sim/gpu/gl.h"
-#include "slosh/state.h"
+#include "sim/state.h"
 
 #include <epoxy/gl.h>
 

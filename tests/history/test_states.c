@@ -2,8 +2,8 @@
 #include "tests/app/output_fixture.h"
 
 #include "app/run/simulator_private.h"
+#include "sim/state.h"
 #include "sim/step/world.h"
-#include "slosh/state.h"
 
 #include <math.h>
 

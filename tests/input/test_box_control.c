@@ -6,7 +6,7 @@
 #include "tests/tolerance.h"
 
 #include "app/input/input.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <pthread.h>
 #include <stdatomic.h>

@@ -7,7 +7,7 @@
 #include "app/cli/cli.h"
 #include "app/input/input.h"
 #include "app/run/session.h"
-#include "slosh/state.h"
+#include "sim/state.h"
 
 static const double SIZE[3] = {1, 1, 1};
 static const double RATE = 250; /* reports a second */

@@ -4,7 +4,7 @@
 
 #include "render/particles/particles.h"
 #include "render/views/pbsr/pbsr_private.h"
-#include "slosh/mesh.h"
+#include "sim/mesh.h"
 
 #include <epoxy/gl.h>
 

@@ -3,7 +3,7 @@
 #include "tests/playback/recorded_fixture.h"
 
 #include "app/run/playback/playback.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 enum { STEPS = 20 };
 

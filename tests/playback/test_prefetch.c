@@ -4,7 +4,7 @@
 #include "tests/playback/recorded_fixture.h"
 
 #include "app/run/playback/playback.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <epoxy/gl.h>
 #include <hdf5.h>

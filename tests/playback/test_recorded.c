@@ -3,7 +3,7 @@
 
 #include "app/scene/scene.h"
 #include "sim/step/method.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <hdf5.h>
 

@@ -1,7 +1,7 @@
 /* The ring of slots: what is written is what the GPU reads, round and round, without touching what is still
  * drawn. */
 #include "render/particles/particles.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 #include "tests/lists.h"
 #include "tests/render/fixture.h"
 

@@ -1,6 +1,6 @@
 /* Scenes with long lists: read, simulated, saved and read again. */
 #include "app/scene/scene.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -7,7 +7,7 @@
 
 #include "app/scene/scene.h"
 #include "sim/base/base.h"
-#include "slosh/state.h"
+#include "sim/state.h"
 
 #include <math.h>
 

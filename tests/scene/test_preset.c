@@ -6,7 +6,7 @@
 
 #include "app/bench/cases/case.h"
 #include "app/scene/scene.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <stdlib.h>
 

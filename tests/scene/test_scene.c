@@ -2,7 +2,7 @@
  */
 #include "app/scene/scene.h"
 #include "sim/start/start.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 #include "tests/scene/scene_text.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* --set and --particles: edits of the tree before it is read. */
 #include "sim/start/start.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 #include "tests/scene/scene_text.h"
 
 #include <math.h>

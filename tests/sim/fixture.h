@@ -7,7 +7,7 @@
 #include "sim/gpu/gl.h"
 #include "sim/step/backend.h"
 #include "sim/step/method.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 /* cmocka's needs */
 #include <setjmp.h>

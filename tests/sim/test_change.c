@@ -1,7 +1,7 @@
 /* What may change while a world lives. */
 #include "fixture.h"
 
-#include "slosh/state.h"
+#include "sim/state.h"
 
 static WorldDef two_fluids(void)
 {

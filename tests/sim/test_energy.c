@@ -5,8 +5,8 @@
 
 #include "sim/def/fluids.h"
 #include "sim/methods/wcsph/wcsph.h"
+#include "sim/state.h"
 #include "sim/step/world.h"
-#include "slosh/state.h"
 
 static Error error;
 

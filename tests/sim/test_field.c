@@ -2,7 +2,7 @@
 #include "fixture.h"
 
 #include "sim/kernel/kernel.h"
-#include "slosh/mesh.h"
+#include "sim/mesh.h"
 
 enum { COUNT = 500 };
 

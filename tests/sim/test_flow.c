@@ -5,7 +5,7 @@
 
 #include "sim/flow/flow.h"
 #include "sim/start/start.h"
-#include "slosh/state.h"
+#include "sim/state.h"
 
 static WorldDef jet_def(int dimensions)
 {

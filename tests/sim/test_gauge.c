@@ -1,8 +1,8 @@
 /* Gauges of a running world, against sums in double over particles read back. */
 #include "fixture.h"
 
+#include "sim/def.h"
 #include "sim/step/backend.h"
-#include "slosh/def.h"
 
 #include <time.h>
 

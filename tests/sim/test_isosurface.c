@@ -2,7 +2,7 @@
  */
 #include "fixture.h"
 
-#include "slosh/mesh.h"
+#include "sim/mesh.h"
 #include "tests/closed_mesh.h"
 
 /* A field in a cube of 2 m around the origin: more inside. */

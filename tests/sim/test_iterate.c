@@ -1,7 +1,7 @@
 /* What is counted of solvers that iterate: over steps, in bounded memory. */
 #include "sim/methods/dfsph/dfsph.h"
+#include "sim/state.h"
 #include "sim/step/substep.h"
-#include "slosh/state.h"
 #include "tests/sim/fixture.h"
 
 static void add(SolveTally *tally, int density, int divergence, double mean, double most)

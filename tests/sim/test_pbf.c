@@ -4,9 +4,9 @@
 #include "tests/dfsph/rows.h"
 #include "tests/lists.h"
 
+#include "sim/def.h"
 #include "sim/methods/pbf/pbf_private.h"
 #include "sim/step/world.h"
-#include "slosh/def.h"
 
 static WorldDef pbf_world(double width, double height, double depth)
 {

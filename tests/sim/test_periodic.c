@@ -8,7 +8,7 @@
 #include "sim/def/fluids.h"
 #include "sim/methods/wcsph/wcsph.h"
 #include "sim/start/start.h"
-#include "slosh/state.h"
+#include "sim/state.h"
 
 /* Scattered particles in a box that is periodic along the axes given; the others have walls. */
 typedef struct Cloud {

@@ -8,7 +8,7 @@
 #include "sim/methods/dfsph/dfsph.h"
 #include "sim/methods/pbf/pbf.h"
 #include "sim/methods/wcsph/wcsph.h"
-#include "slosh/state.h"
+#include "sim/state.h"
 
 static Error error;
 

@@ -5,8 +5,8 @@
 
 #include "sim/methods/wcsph/wcsph.h"
 #include "sim/solids/solid.h"
-#include "slosh/state.h"
-#include "slosh/world.h"
+#include "sim/state.h"
+#include "sim/world.h"
 
 /* A block in the lattice's own places, once, and in two nested parts: rest density within 0.5 % all
    around, as at the walls. */

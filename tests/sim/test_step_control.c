@@ -6,8 +6,8 @@
 
 #include "sim/def/fluids.h"
 #include "sim/methods/wcsph/wcsph.h"
+#include "sim/state.h"
 #include "sim/step/constants.h"
-#include "slosh/state.h"
 
 static Error error;
 

@@ -1,5 +1,5 @@
 /* The toy method is listed, is saved, and has the same bits on any number of threads. */
-#include "slosh/state.h"
+#include "sim/state.h"
 #include "tests/sim/fixture.h"
 #include "tests/sim/toy_method.h"
 

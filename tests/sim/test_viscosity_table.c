@@ -1,8 +1,8 @@
 /* A viscosity that is a table over time: how flows decay, how long steps may be, what a state needs. */
 #include "fixture.h"
 
+#include "sim/state.h"
 #include "sim/step/constants.h"
-#include "slosh/state.h"
 
 static Error error;
 

@@ -5,7 +5,7 @@
 #include "sim/def/fluids.h"
 #include "sim/kernel/kernel.h"
 #include "sim/methods/wcsph/wcsph.h"
-#include "slosh/state.h"
+#include "sim/state.h"
 
 enum { COUNT = 600 };
 

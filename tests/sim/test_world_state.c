@@ -3,7 +3,7 @@
 
 #include "fixture.h"
 
-#include "slosh/state.h"
+#include "sim/state.h"
 
 static Error error;
 

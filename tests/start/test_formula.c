@@ -1,7 +1,7 @@
 /* Formulas of a scene: values, and what is said of what can't be read. */
 #include "tests/sim/fixture.h"
 
-#include "slosh/def.h"
+#include "sim/def.h"
 
 static const double at[] = {2, 3, 5};
 

@@ -1,8 +1,8 @@
 /* Walks that begin on triangles: on the particles' own field as evenly as its area, inside the fluid only. */
 #include "fixture.h"
 
+#include "sim/mesh.h"
 #include "sim/points/points.h"
-#include "slosh/mesh.h"
 
 enum { ALONG = 17, PARTICLES_MOST = ALONG * ALONG * ALONG, CELLS = 40 };
 

@@ -4,7 +4,7 @@
 #include "fixture.h"
 
 #include "sim/points/points.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <stdio.h>
 #include <time.h>

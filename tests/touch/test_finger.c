@@ -68,7 +68,7 @@ static void a_stir_gives_force_times_time(void **state)
     }
 }
 
-/* What a particle off the point gains in a step, from include/slosh/world.h's words. */
+/* What a particle off the point gains in a step, from sim/world.h's words. */
 static double gain_of(const float x[3], const Finger *finger, double dt, double out[3])
 {
     double r2 = 0;

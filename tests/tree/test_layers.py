@@ -35,7 +35,7 @@ SIM = {
 METHODS = own_folders("sim/methods", "Method method")
 SIM |= {f"methods/{name}": "base kernel box def solids flow step cpu methods/shared" for name in METHODS}
 SIM_INSIDE = {f"sim/{name}" for name in SIM if name == "cpu" or name.startswith("methods/")}  # for no other floor
-PUBLIC = "slosh"  # include/slosh: every part may include these headers; each includes the others alone
+PUBLIC = "sim"  # sim/*.h: every part may include these headers; each includes the others alone
 GL = {"": "", "compute": "", "fragment": "", "points": ""}
 BACKENDS = {"sim/gpu/compute", "sim/gpu/fragment"}  # other floors know them by name only
 RENDER = {
@@ -114,7 +114,7 @@ def may():
             own_shaders = f"sim/{room}".replace("methods/", "") if floor == "sim" else SHADERS_OF.get(folder(floor, room), room.split("/")[-1])
             blocks = [f"shaders/{name}" for name in [*SHADERS.get(floor, "").split(), own_shaders] if floor in SHADERS]
             allowed[folder(floor, room)] = [*down, *own, folder(floor, room), *blocks, PUBLIC]
-    allowed["include/slosh"] = [PUBLIC]
+    allowed[PUBLIC] = [PUBLIC]
     return allowed
 
 
@@ -123,7 +123,7 @@ def includes(path):
 
 
 def sources():
-    for floor in ("include", "sim", "render", "app"):
+    for floor in ("sim", "render", "app"):
         yield from sorted(path for path in (ROOT / floor).rglob("*.[ch]*") if path.suffix in (".c", ".h", ".cpp"))
 
 
@@ -201,7 +201,7 @@ class Layers(unittest.TestCase):
     def test_each_header_has_a_guard_of_its_own(self):
         """Of two with one guard a file that includes both loses the second, without a word."""
         owners = collections.defaultdict(list)
-        for path in [*ROOT.glob("include/**/*.h"), *ROOT.glob("sim/**/*.h"), *ROOT.glob("render/**/*.h"), *ROOT.glob("app/**/*.h"), *ROOT.glob("tests/**/*.h")]:
+        for path in [*ROOT.glob("sim/**/*.h"), *ROOT.glob("render/**/*.h"), *ROOT.glob("app/**/*.h"), *ROOT.glob("tests/**/*.h")]:
             guard = re.search(r"^#ifndef (\w+)\n#define \1$", path.read_text(), re.M)
             owners[guard and guard[1]].append(str(path.relative_to(ROOT)))
         owners.pop(None, None)  # lists that are included more than once

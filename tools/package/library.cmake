@@ -2,8 +2,8 @@
 # SOURCES, ARCHIVE, WORK, NM, LINKER, OBJCOPY, AR, INCLUDES and LIBRARIES (CMakeLists.txt).
 cmake_policy(VERSION 3.25)
 
-# Public are the headers of include/slosh: each includes the others of the folder alone.
-file(GLOB headers ${SOURCES}/include/slosh/*.h)
+# Public are the headers sim/*.h: each includes the others alone.
+file(GLOB headers ${SOURCES}/sim/*.h)
 set(text)
 foreach(header ${headers})
   file(READ ${header} content)

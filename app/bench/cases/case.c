@@ -3,7 +3,7 @@
 #include "app/base/program.h"
 #include "app/bench/cases/case_list.h"
 #include "app/scene/scene.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdio.h>

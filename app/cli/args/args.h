@@ -5,7 +5,7 @@
 #define APP_CLI_ARGS_ARGS_H
 
 #include "app/scene/scene.h"
-#include "slosh/error.h"
+#include "sim/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

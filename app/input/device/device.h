@@ -3,7 +3,7 @@
 #ifndef APP_INPUT_DEVICE_DEVICE_H
 #define APP_INPUT_DEVICE_DEVICE_H
 
-#include "slosh/error.h"
+#include "sim/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

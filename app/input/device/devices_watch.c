@@ -2,7 +2,7 @@
 #include "app/input/device/device.h"
 
 #include "app/base/program.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <errno.h>
 #include <math.h>

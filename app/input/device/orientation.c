@@ -1,6 +1,6 @@
 #include "app/input/device/device.h"
 
-#include "slosh/def.h"
+#include "sim/def.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 
 #include "app/base/file.h"
 #include "app/run/recording/recording.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <errno.h>
 #include <stdarg.h>

@@ -7,8 +7,8 @@
 #include "sim/flow/flow.h"
 #include "sim/gpu/particle_buffers.h"
 #include "sim/start/start.h"
-#include "slosh/state.h"
-#include "slosh/world.h"
+#include "sim/state.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -13,8 +13,8 @@
 #include "render/frame/passes.h"
 #include "render/particles/particles.h"
 #include "render/renderer.h"
+#include "sim/def.h"
 #include "sim/gpu/particle_buffers.h"
-#include "slosh/def.h"
 
 #include <stdbool.h>
 #include <stddef.h>

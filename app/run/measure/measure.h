@@ -4,8 +4,8 @@
 
 #include "app/base/file.h"
 #include "app/run/measure/measure_def.h"
-#include "slosh/def.h"
-#include "slosh/world.h"
+#include "sim/def.h"
+#include "sim/world.h"
 
 #include <jansson.h>
 #include <stdbool.h>

@@ -7,7 +7,7 @@
 #include "app/scene/scene.h"
 #include "render/particles/particles.h"
 #include "sim/gpu/particle_buffers.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 /* Interpolation between two states: particles and box at a time between two steps. */
 

@@ -1,7 +1,7 @@
 #include "app/run/playback/playback.h"
 
 #include "app/files/snapshot_hdf5.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <pthread.h>

@@ -3,9 +3,9 @@
 #define APP_RUN_RECORDING_RECORDING_H
 
 #include "app/scene/scene.h"
-#include "slosh/def.h"
-#include "slosh/error.h"
-#include "slosh/world.h"
+#include "sim/def.h"
+#include "sim/error.h"
+#include "sim/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -2,7 +2,7 @@
 
 #include "app/scene/scene.h"
 #include "sim/solids/solid.h"
-#include "slosh/state.h"
+#include "sim/state.h"
 
 #include <math.h>
 #include <stdio.h>

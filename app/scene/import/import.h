@@ -3,10 +3,10 @@
 #ifndef APP_SCENE_IMPORT_IMPORT_H
 #define APP_SCENE_IMPORT_IMPORT_H
 
+#include "sim/def.h"
+#include "sim/error.h"
 #include "sim/mesh/mesh_shape.h"
 #include "sim/points/points.h"
-#include "slosh/def.h"
-#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -5,7 +5,7 @@
 #include "app/base/program.h"
 #include "app/scene/import/import_private.h"
 #include "sim/base/base.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>

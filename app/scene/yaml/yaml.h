@@ -9,7 +9,7 @@
 #define APP_SCENE_YAML_YAML_H
 
 #include "sim/base/key.h"
-#include "slosh/error.h"
+#include "sim/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -3,7 +3,7 @@
 #include "app/base/program.h"
 #include "sim/base/base.h"
 #include "sim/base/key.h"
-#include "slosh/def.h"
+#include "sim/def.h"
 
 #include <math.h>
 #include <stdlib.h>

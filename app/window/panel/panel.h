@@ -11,7 +11,7 @@
 #include "render/ui/ui.h"
 #include "sim/gpu/gl.h"
 #include "sim/step/constants.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -8,9 +8,9 @@
 #include "render/frame/frame.h"
 #include "render/particles/particles.h"
 #include "shaders/trails/trails_bindings.h"
+#include "sim/error.h"
 #include "sim/gpu/particle_buffers.h"
-#include "slosh/error.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>

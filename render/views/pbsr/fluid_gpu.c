@@ -3,7 +3,7 @@
 #include "shaders/pbsr/pbsr_bindings.h"
 #include "shaders/shared/bindings.h"
 #include "sim/gpu/gl.h"
-#include "slosh/mesh.h"
+#include "sim/mesh.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 #include "render/views/pbsr/pbsr_private.h"
 #include "sim/base/base.h"
 #include "sim/kernel/kernel.h"
-#include "slosh/mesh.h"
+#include "sim/mesh.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

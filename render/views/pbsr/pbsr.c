@@ -5,7 +5,7 @@
 #include "render/views/pbsr/pbsr_private.h"
 #include "sim/base/base.h"
 #include "sim/gpu/gl.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,8 +4,8 @@
 
 #include "render/frame/view.h"
 #include "sim/base/base.h"
+#include "sim/def.h"
 #include "sim/points/points.h"
-#include "slosh/def.h"
 
 enum { PBSR_LAYERS_MAX = 8 };
 

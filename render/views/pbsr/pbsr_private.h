@@ -9,11 +9,11 @@
 #include "render/frame/frame.h"
 #include "render/frame/view.h"
 #include "render/particles/particles.h"
+#include "sim/def.h"
 #include "sim/gpu/particle_buffers.h"
 #include "sim/gpu/points/points_gpu.h"
+#include "sim/mesh.h"
 #include "sim/points/points.h"
-#include "slosh/def.h"
-#include "slosh/mesh.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -268,7 +268,7 @@ void average_add(Average *average, int sets, const Frame *frame);
 void average_show_back(const Average *average, const Frame *frame);
 void average_show_front(const Average *average, const Frame *frame);
 
-/* The field F = sum V W of a fluid (include/slosh/mesh.h) and means of scalars on a grid. Computed on the CPU
+/* The field F = sum V W of a fluid (sim/mesh.h) and means of scalars on a grid. Computed on the CPU
    from particles read back, where the CPU projects: on a software driver the particles are in CPU memory.
    Else by GpuFluid, without arrays here. In a two-dimensional scene F is the plane's field, constant through
    the depth of the box. */

@@ -9,8 +9,8 @@
 #include "render/frame/frame.h"
 #include "render/frame/passes.h"
 #include "render/particles/particles.h"
+#include "sim/error.h"
 #include "sim/gpu/particle_buffers.h"
-#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -9,10 +9,10 @@
 #include "render/frame/frame.h"
 #include "render/particles/particles.h"
 #include "sim/base/base.h"
+#include "sim/error.h"
 #include "sim/gpu/gl.h"
 #include "sim/gpu/particle_buffers.h"
-#include "slosh/error.h"
-#include "slosh/mesh.h"
+#include "sim/mesh.h"
 
 #include <stdbool.h>
 

@@ -1,8 +1,8 @@
-/* Voxelization on the CPU by include/slosh/mesh.h: for software drivers, which use the CPU's memory. */
+/* Voxelization on the CPU by sim/mesh.h: for software drivers, which use the CPU's memory. */
 #include "render/views/volume/volume_private.h"
 #include "sim/base/base.h"
 #include "sim/kernel/kernel.h"
-#include "slosh/mesh.h"
+#include "sim/mesh.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -1,4 +1,4 @@
-// Sums for the watch over energy (include/slosh/state.h), added as in gauge.comp.
+// Sums for the watch over energy (sim/state.h), added as in gauge.comp.
 #include "sim/constants.glsl"
 #include "sim/gauge.glsl"
 layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume, m3

@@ -5,7 +5,7 @@ layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 ve
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; }; // id, fluid
 layout(std430, binding = PRESSURES_BUFFER) readonly buffer Pressures { vec2 pressure[]; };
 layout(std430, binding = VALUES_BUFFER) writeonly buffer Values { uint word[]; };
-layout(location = SHOWN_SCALAR_AT) uniform int scalar; // include/slosh/world.h; SCALAR_STATE_COUNT: fluid as a number; then the id
+layout(location = SHOWN_SCALAR_AT) uniform int scalar; // sim/world.h; SCALAR_STATE_COUNT: fluid as a number; then the id
 
 #ifdef CARRIES_DENSITY
 float compression_of(uint i) { return velocity[i].w; }

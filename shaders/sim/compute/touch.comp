@@ -1,4 +1,4 @@
-// A finger in the fluid: include/slosh/world.h.
+// A finger in the fluid: sim/world.h.
 #include "sim/constants.glsl"
 #include "sim/cells.glsl"
 #include "sim/finger.glsl"

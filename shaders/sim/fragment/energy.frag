@@ -1,4 +1,4 @@
-// Sums for the watch over energy (include/slosh/state.h): a vector of four a pass, as in compute/energy.comp. First
+// Sums for the watch over energy (sim/state.h): a vector of four a pass, as in compute/energy.comp. First
 // level of the reduction; gauge.frag adds further.
 #include "sim/fragment/particles.glsl"
 #include "sim/gauge.glsl"

@@ -1,7 +1,7 @@
 // Values of each particle for the views besides position and velocity: shaders/sim/compute/show.comp.
 #include "sim/fragment/own.glsl"
 uniform sampler2D fields;
-uniform int scalar; // include/slosh/world.h; SCALAR_STATE_COUNT: the fluid as a number; SCALAR_STATE_COUNT + 1: the id
+uniform int scalar; // sim/world.h; SCALAR_STATE_COUNT: the fluid as a number; SCALAR_STATE_COUNT + 1: the id
 layout(location = 0) out uint word; // bits of a float, or a number
 
 float compression_of(int i) { return stiffness_scale * (1.0 / (of_particle(fields, i).x * rest_number_density) - 1.0); }

@@ -1,4 +1,4 @@
-// A finger in the fluid: include/slosh/world.h.
+// A finger in the fluid: sim/world.h.
 #include "sim/fragment/own.glsl"
 #include "sim/finger.glsl"
 uniform vec4 finger_at; // w: 1 / radius^2

@@ -7,7 +7,7 @@
 #include "shaders/sim/mesh_block.h"
 #include "shaders/sim/solid_steps_block.h"
 #include "sim/mesh/mesh_shape.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <epoxy/gl.h>
 #include <stdlib.h>
@@ -248,7 +248,7 @@ void compute_boundary_fill(Compute *c)
     compute_sweep(c, COMPUTE_BOUNDARY_FILL, c->constants->boundary.count);
 }
 
-/* Forces on box and solids (include/slosh/world.h): partial sums by passes on the GPU,
+/* Forces on box and solids (sim/world.h): partial sums by passes on the GPU,
    shaders/sim/forces.glsl, read on request. */
 
 static size_t parts(const Compute *c)

@@ -6,9 +6,9 @@
 
 #include "shaders/sim/wcsph/wcsph_block.h"
 #include "sim/cpu/cpu.h"
+#include "sim/state.h"
 #include "sim/step/constants.h"
 #include "sim/step/method.h"
-#include "slosh/state.h"
 
 /* Constants of wcsph alone, and its terms. */
 

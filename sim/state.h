@@ -1,11 +1,11 @@
 /* The saved state of a world: all data read by the next step, so that save, load, step equals step to the
    bit, on any backend (world_save, world_load below). The file begins with what the state holds: births,
    floating solids, energy sums, live settings, and the particles' columns. */
-#ifndef SLOSH_STATE_H
-#define SLOSH_STATE_H
+#ifndef SIM_STATE_H
+#define SIM_STATE_H
 
-#include "slosh/def.h"
-#include "slosh/world.h"
+#include "sim/def.h"
+#include "sim/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -127,7 +127,7 @@ int live_count(void);
    saving and files are loops over the rows. A method adds rows (sim/step/method.h). */
 
 struct Constants; /* sim/step/constants.h */
-struct WorldDef;  /* include/slosh/def.h */
+struct WorldDef;  /* sim/def.h */
 
 enum { COLUMNS_TERM = 36, COLUMNS_MAX = 48 };
 enum { COLUMNS_KEPT = 34, COLUMNS_LEFT = 40, COLUMNS_SHOWN = 43 }; /* indices in ParticleColumns.own */

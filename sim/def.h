@@ -1,4 +1,4 @@
-/* What a world is made of: WorldDef, plain data for world_create (slosh/world.h). Begin with
+/* What a world is made of: WorldDef, plain data for world_create (sim/world.h). Begin with
    world_def_default() and set the box, the spacing and the fluids. SI units; 2D or 3D; the box's frame has
    its origin at the centre of the box's floor, y up.
 
@@ -9,10 +9,10 @@
    fluid.fill_count = 40;`. A copy of a def has the same lists. world_create copies the lists: equal lists
    once, for as long as the program runs. The names, tables and meshes behind other pointers stay
    the creator's, until the world is destroyed. */
-#ifndef SLOSH_DEF_H
-#define SLOSH_DEF_H
+#ifndef SIM_DEF_H
+#define SIM_DEF_H
 
-#include "slosh/error.h"
+#include "sim/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

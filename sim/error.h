@@ -1,6 +1,6 @@
 /* An error in words for a person: "what is wrong; what would be right". */
-#ifndef SLOSH_ERROR_H
-#define SLOSH_ERROR_H
+#ifndef SIM_ERROR_H
+#define SIM_ERROR_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,4 +1,4 @@
-/* The solver: make a world from a def (slosh/def.h), step the world, and read its state.
+/* The solver: make a world from a def (sim/def.h), step the world, and read its state.
 
      Error error = {{0}};
      World *world = world_create(&def, &error);
@@ -10,11 +10,11 @@
    Then come the finger, limits and troubles of a step, figures of a world, and the functions. A function
    that can fail returns false or NULL with a message in `error`. The library prints nothing and never
    exits. */
-#ifndef SLOSH_WORLD_H
-#define SLOSH_WORLD_H
+#ifndef SIM_WORLD_H
+#define SIM_WORLD_H
 
-#include "slosh/def.h"
-#include "slosh/error.h"
+#include "sim/def.h"
+#include "sim/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -66,7 +66,7 @@ typedef uint64_t ParticleId;
    the grid of backend fragment, else 0. X(ENUM, name, unit) */
 #define BACKEND_SCALAR_LIST(X) X(LOST, "lost", "")
 
-/* In every state, but not as a column: include/slosh/state.h. X(ENUM, name, unit) */
+/* In every state, but not as a column: sim/state.h. X(ENUM, name, unit) */
 #define BIRTH_SCALAR_LIST(X) X(BORN, "born", "s")
 
 /* Derived by pictures from a state, of any backend or file: render/derived has a formula for each. */
@@ -346,7 +346,7 @@ static inline void finger_apply(const FingerStep *step, const float d[3], float 
 
 /* Bounds, state and troubles of a step, and its solvers, as callers of a world read them. */
 
-/* Number of columns that a method may own (include/slosh/state.h). */
+/* Number of columns that a method may own (sim/state.h). */
 enum { COLUMNS_OWN = 46 };
 
 /* X(ENUM, name, help): bounds of a step */
@@ -569,7 +569,7 @@ void world_stop_at(World *world, double time);
 bool world_is_valid(World *world);
 
 /* Sets the hand's target for the box from the next step on. The box follows through the filter, on top of
-   the prescribed motion (include/slosh/def.h). The orientation is normalised; a non-finite target is
+   the prescribed motion (sim/def.h). The orientation is normalised; a non-finite target is
    ignored. */
 void world_set_target(World *world, const BoxTarget *target);
 

@@ -1,9 +1,9 @@
 /* A field on a grid, and an isosurface of the field as a closed mesh of triangles: the fluid's surface as
    `slosh export` writes it. Bins share work over threads without a change of bits. */
-#ifndef SLOSH_MESH_H
-#define SLOSH_MESH_H
+#ifndef SIM_MESH_H
+#define SIM_MESH_H
 
-#include "slosh/error.h"
+#include "sim/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>
