@@ -14,6 +14,7 @@
 #include <pthread.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 const KeyScalar key_scalars[KEY_SCALARS] = {{"view.color_by", "view.range"},
@@ -46,8 +47,8 @@ void key_help_text(const Key *key, char *text, size_t size)
     snprintf(text, size, "%s%s%s", owner, *owner ? ": " : "", key->help);
 }
 
-/* True if a path with indices ([0]) matches the path of a row, which has none ([]). */
-static bool path_matches(const char *row, const char *path)
+/* Order of paths as of strcmp; a path with indices ([0]) equals the path of a row, which has none ([]). */
+static int path_order(const char *path, const char *row)
 {
     while (*row && *row == *path) {
         if (*path == '[')
@@ -56,7 +57,7 @@ static bool path_matches(const char *row, const char *path)
             path++;
         row++;
     }
-    return !*row && !*path;
+    return (unsigned char)*path - (unsigned char)*row;
 }
 
 static const KeyListMapping views = {"views", "view", offsetof(Scene, view)};
@@ -84,24 +85,27 @@ static const Key *find_like(const char *path)
     return scene_key_find(own);
 }
 
+/* The rows by path: the panel looks for hundreds in each of its pictures. */
+enum { KEYS_MAX = 512 };
+
+static const Key *by_path[KEYS_MAX];
+
+static int order_of_rows(const void *a, const void *b)
+{
+    return strcmp((*(const Key *const *)a)->path, (*(const Key *const *)b)->path);
+}
+
+static int order_to_row(const void *path, const void *row)
+{
+    return path_order(path, (*(const Key *const *)row)->path);
+}
+
 const Key *scene_key_find(const char *path)
 {
     int count;
-    const Key *keys = scene_keys(&count);
-    for (int i = 0; i < count; i++)
-        if (path_matches(keys[i].path, path))
-            return &keys[i];
-    return find_like(path);
-}
-
-const Key *key_list(const Key *key)
-{
-    char path[128];
-    const char *brackets = strstr(key->path, "[].");
-    if (!brackets || strstr(brackets + 1, "[]."))
-        return NULL;
-    snprintf(path, sizeof path, "%.*s", (int)(brackets - key->path), key->path);
-    return scene_key_find(path);
+    scene_keys(&count);
+    const Key *const *found = bsearch(path, by_path, (size_t)count, sizeof *by_path, order_to_row);
+    return found ? *found : find_like(path);
 }
 
 int key_list_count(const Key *list, const Scene *scene)
@@ -175,18 +179,18 @@ extern const Key touch_keys[];                                    /* sim/flow */
 extern const Key method_keys[], backend_keys[];                   /* sim/step */
 extern const Key view_keys[], view_frame_keys[];                  /* render/frame */
 
-enum { KEYS_MAX = 512 };
-
 static Key table[KEYS_MAX];
 static int table_count;
+static const Key *above_of[KEYS_MAX]; /* the mapping above a row; NULL: none */
+static const Key *list_of[KEYS_MAX];  /* the list of a row of its elements; NULL: none */
 
 static size_t moved(size_t offset, size_t by)
 {
     return offset == KEY_NOWHERE ? KEY_NOWHERE : offset + by;
 }
 
-/* The mapping above a row; NULL: none. */
-static const Key *mapping_of(const Key *key)
+/* The mapping above a row to be added. */
+static const Key *find_mapping(const Key *key)
 {
     const Key *above = NULL;
     for (const Key *row = table; row < table + table_count; row++) {
@@ -198,12 +202,25 @@ static const Key *mapping_of(const Key *key)
     return above;
 }
 
+/* Lists come before the rows of their elements. */
+static const Key *find_list(const Key *key)
+{
+    const char *brackets = strstr(key->path, "[].");
+    if (!brackets || strstr(brackets + 1, "[]."))
+        return NULL;
+    const size_t length = (size_t)(brackets - key->path);
+    for (const Key *row = table; row < table + table_count; row++)
+        if (strlen(row->path) == length && strncmp(row->path, key->path, length) == 0)
+            return row;
+    return NULL;
+}
+
 /* Adds a row; rows of list elements have offsets within the element. */
 static void table_add(const Key *key, size_t at, const KeyOwner *owner)
 {
     assert(table_count < KEYS_MAX);
     Key *row = &table[table_count];
-    const Key *above = mapping_of(key);
+    const Key *above = find_mapping(key);
     const size_t by = strstr(key->path, "[]") ? 0 : at;
     *row = *key;
     row->offset = moved(key->offset, by);
@@ -211,7 +228,19 @@ static void table_add(const Key *key, size_t at, const KeyOwner *owner)
     row->flags |= above ? above->flags & KEY_IDLE : 0;
     if (!key->owner && !(above && above->owner == owner))
         row->owner = owner; /* otherwise by the mapping above */
+    above_of[table_count] = above;
+    list_of[table_count] = find_list(key);
     table_count++;
+}
+
+const Key *key_list(const Key *key)
+{
+    return list_of[key - table];
+}
+
+static const Key *mapping_of(const Key *row)
+{
+    return above_of[row - table];
 }
 
 static void add_rows(const Key *rows, size_t at, const KeyOwner *owner)
@@ -295,6 +324,9 @@ static void table_make(void)
     add_overlays();
     add_rows(view_frame_keys, view, NULL);
     add_rows(views_keys, 0, NULL);
+    for (int i = 0; i < table_count; i++)
+        by_path[i] = &table[i];
+    qsort(by_path, (size_t)table_count, sizeof *by_path, order_of_rows);
 }
 
 int scene_view_count(const Scene *scene)

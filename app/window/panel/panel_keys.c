@@ -383,6 +383,15 @@ static bool says_the_picture(const Key *key, const Scene *scene)
            (strcmp(key->path, RADIUS) == 0 && shown && (shown->curves & VIEW_SIZE));
 }
 
+/* Hundreds of keys for each open section of each picture: without a format. */
+static void heading_put(char name[NAME_LENGTH], const char *text, size_t length)
+{
+    const size_t fits = length < NAME_LENGTH ? length : NAME_LENGTH - 1;
+    memcpy(name, text, fits);
+    name[fits] = 0;
+    name[0] = (char)toupper((unsigned char)name[0]);
+}
+
 /* Fills in the heading of a key: "solver.step.dt" is in "Solver". The shown view's own keys are in "View" or
    "More of the view", an overlay's under the overlay's name. */
 static void group_of(const Key *key, const Scene *scene, char name[NAME_LENGTH])
@@ -392,18 +401,19 @@ static void group_of(const Key *key, const Scene *scene, char name[NAME_LENGTH])
     const bool of_a_view =
         strncmp(key->path, "view.", strlen("view.")) == 0 && (own == 0 || is_a_view(part, own));
     if (IS_AMONG(of_render, key->path))
-        snprintf(name, NAME_LENGTH, "%s", RENDER_GROUP);
+        heading_put(name, RENDER_GROUP, strlen(RENDER_GROUP));
     else if (IS_AMONG(of_play, key->path))
-        snprintf(name, NAME_LENGTH, "%s", PLAY_GROUP);
+        heading_put(name, PLAY_GROUP, strlen(PLAY_GROUP));
+    else if (of_a_view && says_the_picture(key, scene))
+        heading_put(name, VIEW_GROUP, strlen(VIEW_GROUP));
     else if (of_a_view)
-        snprintf(name, NAME_LENGTH, "%s", says_the_picture(key, scene) ? VIEW_GROUP : MORE_GROUP);
+        heading_put(name, MORE_GROUP, strlen(MORE_GROUP));
     else if (!key->path[length])
-        snprintf(name, NAME_LENGTH, "World");
+        heading_put(name, "World", strlen("World"));
     else if (own > 0 && !is_a_view(part, own))
-        snprintf(name, NAME_LENGTH, "%.*s", (int)own, part);
+        heading_put(name, part, own);
     else
-        snprintf(name, NAME_LENGTH, "%.*s", (int)length, key->path);
-    name[0] = (char)toupper((unsigned char)name[0]);
+        heading_put(name, key->path, length);
 }
 
 /* Makes the label: the path after the heading's part, or after the list, in words: "step dt". */
@@ -454,6 +464,8 @@ static bool is_shown(const Key *key, const PanelData *data)
 static bool is_in(const Key *key, const char *group, const PanelData *data)
 {
     char own[NAME_LENGTH];
+    if (!(key->flags & KEY_LIVE))
+        return false;
     group_of(key, data->scene, own);
     return strcmp(own, group) == 0 && is_shown(key, data);
 }
@@ -470,8 +482,10 @@ static void draw_element(Ui *ui, const Key *list, int index, const char *group, 
     name_of(list, element, index, label);
     ui_text(ui, label);
     for (int i = 0; i < count; i++) {
+        if (key_list(&keys[i]) != list || !is_in(&keys[i], group, data))
+            continue;
         path_of(&keys[i], index, path);
-        if (key_list(&keys[i]) != list || !is_in(&keys[i], group, data) || !scene_key_works(scene, path))
+        if (!scene_key_works(scene, path))
             continue;
         label_of(&keys[i], label);
         panel_key(ui,
@@ -508,9 +522,9 @@ static void draw_group(Ui *ui, const char *group, const PanelData *data, const S
     const Key *keys = scene_keys(&count);
     const Key *last_list = NULL;
     for (int i = 0; i < count; i++) {
-        const Key *list = key_list(&keys[i]);
         if (!is_in(&keys[i], group, data))
             continue;
+        const Key *list = key_list(&keys[i]);
         if (list && list != last_list)
             for (int e = 0; e < key_list_count(list, data->scene); e++)
                 draw_element(ui, list, e, group, data, start, events);
