@@ -132,7 +132,8 @@ static bool read_scene(const Export *export, const Args *args, Scene *scene, Err
 {
     SnapshotScene numbers;
     Notes notes = {0};
-    if (!recorded_scene(export->reader, args->scenes[0], NULL, &numbers, scene, &notes, error))
+    if (!recorded_scene(export->reader, args->scenes[0], snapshot_is_foreign(args->scenes[0]), NULL, &numbers,
+                        scene, &notes, error))
         return false;
     notes_print(&notes, stderr);
     return true;

@@ -39,9 +39,13 @@ static bool no_snapshot(const SnapshotReader *reader, const char *path, Error *e
 
 bool export_open(const Args *args, SnapshotReader **reader, Error *error)
 {
-    *reader = snapshot_open(args->scenes[0], error);
+    Notes notes = {.count = 0};
+    *reader = snapshot_is_foreign(args->scenes[0])
+                  ? snapshot_open_foreign(args->scenes[0], NULL, &notes, error)
+                  : snapshot_open(args->scenes[0], error);
     if (!*reader)
         return false;
+    notes_print(&notes, stderr);
     tell_gap(*reader, args->scenes[0]);
     return snapshot_count_steps(*reader) > 0 || no_snapshot(*reader, args->scenes[0], error);
 }

@@ -143,6 +143,26 @@ SnapshotReader *snapshot_open(const char *path, Error *error);
    thousands of steps. An incomplete step is found at the file's end, or on reading. */
 SnapshotReader *snapshot_open_for_display(const char *path, Error *error);
 
+/* Particles in foreign files: app/files/foreign. Such files lack the marks of slosh: by the ending of the
+   name or a pattern with '*'; of HDF5 by the contents. */
+bool snapshot_is_foreign(const char *path);
+
+/* Values missing in foreign files; 0: from the particles, or a default. */
+typedef struct SnapshotAssumptions {
+    double spacing;     /* m */
+    double support;     /* spacings */
+    double density;     /* of fluid at rest, kg/m3 */
+    double box_size[3]; /* m; given: particles are not moved, and in the box's frame */
+    double interval;    /* s from step to step, in place of the files' times */
+    double gravity[3];  /* in the file's axes: up is against it */
+} SnapshotAssumptions;
+
+/* Opens a foreign file, an index or a pattern. Notes name the columns taken, and each assumption.
+   `assume` and `notes` may be NULL. The other functions for display work on the result. Returns NULL with the
+   reason. */
+SnapshotReader *snapshot_open_foreign(const char *path, const SnapshotAssumptions *assume, Notes *notes,
+                                      Error *error);
+
 /* For a reader of snapshot_open_for_display: reopens a changed file, which may have grown. Returns false with
    the reason: the file is gone or was replaced, or is between two writes; then no step can be read until a
    later call succeeds. */

@@ -68,6 +68,19 @@ typedef struct SnapshotExtent {
     hid_t transfer;
 } SnapshotExtent;
 
+/* ---- foreign particles ---- */
+
+typedef struct SnapshotForeign SnapshotForeign;
+
+/* As snapshot_open_foreign. */
+SnapshotForeign *snapshot_foreign_open(const char *path, const SnapshotAssumptions *assume, Notes *notes,
+                                       Error *error);
+void snapshot_foreign_close(SnapshotForeign *foreign); /* NULL is allowed */
+size_t snapshot_foreign_count(const SnapshotForeign *foreign);
+const SnapshotScene *snapshot_foreign_scene(const SnapshotForeign *foreign);
+bool snapshot_foreign_time(SnapshotForeign *foreign, size_t index, double *time, Error *error);
+bool snapshot_foreign_read(SnapshotForeign *foreign, size_t index, SnapshotStep *step, Error *error);
+
 /* ---- steps in memory ---- */
 
 /* Allocates the method's own columns of a saved state (columns_saved); returns false if memory is short. */

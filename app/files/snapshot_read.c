@@ -1,4 +1,5 @@
 #include "app/base/program.h"
+#include "app/files/foreign/foreign.h"
 #include "app/files/snapshot.h"
 #include "app/files/snapshot_private.h"
 #include "sim/kernel/kernel.h"
@@ -66,7 +67,8 @@ enum { SUPPORT_MOST = 10 }; /* spacings; a lattice is summed within this radius;
 
 struct SnapshotReader {
     char path[1024];
-    hid_t file;
+    SnapshotForeign *foreign; /* NULL: a file of slosh */
+    hid_t file;               /* of slosh; else -1 */
     size_t steps;
     struct stat was; /* the file when it was opened */
     bool still;      /* no emitters in the settings: all particles were born at time 0 */
@@ -212,9 +214,47 @@ static void close_file(SnapshotReader *reader)
     reader->file = -1;
 }
 
+/* A file of HDF5 without what each file of slosh has in its root. */
+static bool is_hdf5_of_others(const char *path)
+{
+    struct stat was;
+    Error none;
+    const hid_t file = open_file(path, &was, &none);
+    const bool is = file >= 0 && H5Aexists(file, "spacing") <= 0 && H5Aexists(file, SNAPSHOT_SETTINGS) <= 0;
+    if (file >= 0)
+        H5Fclose(file);
+    return is;
+}
+
+bool snapshot_is_foreign(const char *path)
+{
+    const ForeignFormat *format = foreign_format(path);
+    return foreign_is_pattern(path) || (format && (format != &foreign_hdf5 || is_hdf5_of_others(path)));
+}
+
+SnapshotReader *snapshot_open_foreign(const char *path, const SnapshotAssumptions *assume, Notes *notes,
+                                      Error *error)
+{
+    SnapshotReader *reader = calloc(1, sizeof *reader);
+    SnapshotForeign *foreign = reader ? snapshot_foreign_open(path, assume, notes, error) : NULL;
+    if (!reader)
+        error_set(error, "%s: out of memory", path);
+    if (!foreign) {
+        free(reader);
+        return NULL;
+    }
+    snprintf(reader->path, sizeof reader->path, "%s", path);
+    reader->foreign = foreign;
+    reader->file = -1;
+    reader->steps = snapshot_foreign_count(foreign);
+    return reader;
+}
+
 bool snapshot_refresh(SnapshotReader *reader, Error *error)
 {
     struct stat now;
+    if (reader->foreign) /* whole when opened */
+        return true;
     if (stat(reader->path, &now) != 0)
         return error_set(error, "%s: cannot be read: %s", reader->path, strerror(errno));
     if (now.st_ino != reader->was.st_ino || now.st_dev != reader->was.st_dev)
@@ -234,6 +274,7 @@ void snapshot_reader_close(SnapshotReader *reader)
     if (!reader)
         return;
     close_file(reader);
+    snapshot_foreign_close(reader->foreign);
     free(reader);
 }
 
@@ -268,6 +309,8 @@ bool snapshot_gap(const SnapshotReader *reader, char words[256])
 {
     StrayGroups stray = {.steps = reader->steps};
     char next[32];
+    if (reader->foreign)
+        return false;
     H5Literate(reader->file, H5_INDEX_NAME, H5_ITER_INC, NULL, look_at_link, &stray);
     snapshot_group_name(reader->steps, next);
     if (stray.count == 1)
@@ -280,6 +323,8 @@ bool snapshot_gap(const SnapshotReader *reader, char words[256])
 
 bool snapshot_read_time(SnapshotReader *reader, size_t index, double *time, Error *error)
 {
+    if (reader->foreign)
+        return snapshot_foreign_time(reader->foreign, index, time, error);
     const hid_t group = index < reader->steps ? open_step(reader->file, index) : -1;
     const bool read = group >= 0 && H5Aexists(group, "TimeValue") > 0 &&
                       read_values(group, "TimeValue", H5T_NATIVE_DOUBLE, 1, time);
@@ -291,7 +336,7 @@ bool snapshot_read_time(SnapshotReader *reader, size_t index, double *time, Erro
 /* Reads `width` numbers per fluid; returns the count of fluids. */
 static size_t read_fluids(const SnapshotReader *reader, const char *name, size_t width, double *values)
 {
-    size_t count = H5Aexists(reader->file, name) > 0 ? FLUIDS_MAX : 0;
+    size_t count = reader->file >= 0 && H5Aexists(reader->file, name) > 0 ? FLUIDS_MAX : 0;
     while (count > 0 && !read_values(reader->file, name, H5T_NATIVE_DOUBLE, width * count, values))
         count--;
     return count;
@@ -400,6 +445,10 @@ bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Err
     } numbers[] = {{"spacing", 1, &scene->spacing},
                    {"support_radius", 1, &scene->support_radius},
                    {"box_size", 3, scene->box_size}};
+    if (reader->foreign) {
+        *scene = *snapshot_foreign_scene(reader->foreign);
+        return check_scene(reader, scene, error);
+    }
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         if (H5Aexists(reader->file, numbers[i].name) <= 0 ||
             !read_values(reader->file, numbers[i].name, H5T_NATIVE_DOUBLE, numbers[i].count,
@@ -417,7 +466,8 @@ bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Err
 
 char *snapshot_root_text(const SnapshotReader *reader, const char *name)
 {
-    const hid_t attribute = H5Aexists(reader->file, name) > 0 ? H5Aopen(reader->file, name, H5P_DEFAULT) : -1;
+    const bool has = reader->file >= 0 && H5Aexists(reader->file, name) > 0;
+    const hid_t attribute = has ? H5Aopen(reader->file, name, H5P_DEFAULT) : -1;
     const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
     char *text = NULL;
     if (type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0)
@@ -554,6 +604,8 @@ static bool read_step(SnapshotReader *reader, size_t index, bool shown, Snapshot
     if (index >= reader->steps)
         return error_set(error, "%s: has no step %zu; it has %zu whole step%s", reader->path, index,
                          reader->steps, plural(reader->steps));
+    if (reader->foreign)
+        return snapshot_foreign_read(reader->foreign, index, step, error);
     if (shown && !step_is_complete(reader->file, index))
         return error_set(error, "%s: Step#%zu is not whole", reader->path, index);
     hid_t group = open_step(reader->file, index);

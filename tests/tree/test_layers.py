@@ -58,9 +58,10 @@ APP = {
     "run/recording": "base scene/yaml scene",
     "input/device": "base run/recording",
     "input": "base scene/yaml scene run/recording input/device",
-    "files": "base scene/yaml scene",
+    "files/foreign": "base scene/yaml scene/import scene",
+    "files": "base scene/yaml scene files/foreign",
     "cli/args": "base scene files",  # the command line as data, for all parts below the commands
-    "run/playback": "base scene/yaml scene files",
+    "run/playback": "base scene/yaml scene files/foreign files",
     "run": "base run/measure scene run/recording input files cli/args",
     "run/compare": "base scene run/recording files run/playback run",
     "bench/cases": "base run/measure scene",

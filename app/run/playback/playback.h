@@ -46,6 +46,7 @@ bool interpolate_states(const StateCopy *before, const StateCopy *after, const b
 typedef struct Recorded {
     char path[1024];
     SnapshotReader *reader;
+    bool foreign; /* not of slosh */
     SnapshotScene numbers;
     Scene scene;
     size_t steps;        /* at least 1 */
@@ -54,7 +55,7 @@ typedef struct Recorded {
     SnapshotFlaws flaws; /* of the steps read so far; particles left out as flawed are not in the states */
 } Recorded;
 
-/* True if the name has the ending of a snapshot file. */
+/* True if the name has the ending of a file of particles, or is a pattern of such names. */
 bool recorded_is_file(const char *path);
 
 /* Opens a file. `settings` and `notes` as in recorded_scene; attributes missing in the first step are
@@ -90,10 +91,16 @@ bool recorded_follow(Recorded *recorded, Error *error);
 
 /* Builds the scene from the root's attributes: lengths and fluids with all bits, the rest from the file's
    settings (nine digits; colours three). `settings` (may be NULL) may set only keys of the view; any
-   further key is refused by name. Missing or unknown settings of the file are noted in `notes` (may be
-   NULL). Returns false with the reason. */
-bool recorded_scene(const SnapshotReader *reader, const char *path, const SceneSettings *settings,
-                    SnapshotScene *numbers, Scene *scene, Notes *notes, Error *error);
+   further key is refused by name, but those of recorded_assumptions if `foreign`. Missing or unknown settings
+   of the file are noted in `notes` (may be NULL). Returns false with the reason. */
+bool recorded_scene(const SnapshotReader *reader, const char *path, bool foreign,
+                    const SceneSettings *settings, SnapshotScene *numbers, Scene *scene, Notes *notes,
+                    Error *error);
+
+/* Reads assumptions for a foreign file from settings (may be NULL). Returns false with the reason.
+ */
+bool recorded_assumptions(const char *path, const SceneSettings *settings, SnapshotAssumptions *out,
+                          Error *error);
 
 /* Prepares a recorded file's steps for pictures: a thread reads steps ahead, keeps a few, and writes the
    requested step into an Upload. The shown step is the newest at or before the requested time

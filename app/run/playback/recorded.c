@@ -1,5 +1,6 @@
 #include "app/run/playback/playback.h"
 
+#include "app/files/foreign/foreign.h"
 #include "app/files/snapshot.h"
 #include "render/frame/view.h"
 #include "render/particles/particles.h"
@@ -8,13 +9,10 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 bool recorded_is_file(const char *path)
 {
-    static const char ending[] = ".h5part";
-    const size_t length = strlen(path), end = strlen(ending);
-    return length > end && strcasecmp(path + length - end, ending) == 0;
+    return foreign_is_pattern(path) || foreign_format(path) != NULL;
 }
 
 /* ---- contents of the file ---- */
@@ -100,8 +98,8 @@ static bool understand(Recorded *recorded, const SceneSettings *settings, Notes 
 {
     if (snapshot_count_steps(recorded->reader) == 0)
         return no_step(recorded->reader, recorded->path, error);
-    if (!recorded_scene(recorded->reader, recorded->path, settings, &recorded->numbers, &recorded->scene,
-                        notes, error))
+    if (!recorded_scene(recorded->reader, recorded->path, recorded->foreign, settings, &recorded->numbers,
+                        &recorded->scene, notes, error))
         return false;
     drop_beside(recorded, settings, notes);
     recorded->flaws = snapshot_flaws(recorded->reader, true);
@@ -112,12 +110,21 @@ static bool understand(Recorded *recorded, const SceneSettings *settings, Notes 
 
 bool recorded_open(const char *path, const SceneSettings *settings, Recorded *out, Notes *notes, Error *error)
 {
-    *out = (Recorded){.reader = snapshot_open_for_display(path, error)};
+    SnapshotAssumptions assume;
+    Notes own = {.count = 0}; /* reading the scene begins the notes anew */
+    *out = (Recorded){.foreign = snapshot_is_foreign(path)};
+    if (out->foreign && !recorded_assumptions(path, settings, &assume, error))
+        return false;
+    out->reader = out->foreign ? snapshot_open_foreign(path, &assume, &own, error)
+                               : snapshot_open_for_display(path, error);
     if (!out->reader)
         return false;
     snprintf(out->path, sizeof out->path, "%s", path);
-    if (understand(out, settings, notes, error))
+    if (understand(out, settings, notes, error)) {
+        for (int i = 0; i < own.count; i++)
+            notes_add(notes, "%s", own.line[i]);
         return true;
+    }
     recorded_close(out);
     return false;
 }

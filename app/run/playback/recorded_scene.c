@@ -5,7 +5,9 @@
 #include "app/scene/yaml/yaml.h"
 #include "sim/base/base.h"
 
+#include <math.h>
 #include <stdarg.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,19 +22,71 @@ static bool is_of_view(const char *setting)
            strncmp(setting, "views[", strlen("views[")) == 0;
 }
 
-static bool check_settings(const char *path, const SceneSettings *settings, Error *error)
+/* Keys for values missing in foreign files. */
+static const struct {
+    const char *path;
+    int count; /* numbers, in brackets if more than one */
+    size_t offset;
+} assumed[] = {
+    {"particles.spacing=", 1, offsetof(SnapshotAssumptions, spacing)},
+    {"particles.support=", 1, offsetof(SnapshotAssumptions, support)},
+    {"fluids[0].density=", 1, offsetof(SnapshotAssumptions, density)},
+    {"box.size=", 3, offsetof(SnapshotAssumptions, box_size)},
+    {"solver.step.dt=", 1, offsetof(SnapshotAssumptions, interval)},
+    {"gravity=", 3, offsetof(SnapshotAssumptions, gravity)},
+};
+enum { ASSUMED = sizeof assumed / sizeof *assumed };
+
+/* Number of the row of a setting; ASSUMED: none. */
+static int assumed_row(const char *setting)
+{
+    int row = 0;
+    while (row < ASSUMED && strncmp(setting, assumed[row].path, strlen(assumed[row].path)) != 0)
+        row++;
+    return row;
+}
+
+bool recorded_assumptions(const char *path, const SceneSettings *settings, SnapshotAssumptions *out,
+                          Error *error)
+{
+    *out = (SnapshotAssumptions){.spacing = 0};
+    for (int i = 0; settings && i < settings->count; i++) {
+        const int row = assumed_row(settings->set[i]);
+        if (row == ASSUMED)
+            continue;
+        const char *at = settings->set[i] + strlen(assumed[row].path);
+        double *to = (double *)((char *)out + assumed[row].offset);
+        char *end;
+        int count = 0;
+        for (at += strspn(at, " ["); count < assumed[row].count; count++, at = end + strspn(end, " ,")) {
+            to[count] = strtod(at, &end);
+            if (end == at || !isfinite(to[count]) || (to[count] <= 0 && to != out->gravity))
+                break;
+        }
+        if (count < assumed[row].count - (assumed[row].count > 1) || at[strspn(at, " ]")])
+            return error_set(error, "%.200s: --set %.100s is no such number; write one such as --set %s%s",
+                             path, settings->set[i], assumed[row].path,
+                             assumed[row].count > 1 ? "[1,1,1]" : "0.01");
+    }
+    return true;
+}
+
+static bool check_settings(const char *path, bool foreign, const SceneSettings *settings, Error *error)
 {
     if (settings->particles > 0)
         return error_set(error, "--particles %zu makes no sense for %s: it has the particles that it has",
                          settings->particles, path);
     for (int i = 0; i < settings->count; i++) {
         const char *said = settings->said[i];
-        if (!is_of_view(settings->set[i]))
+        if (!is_of_view(settings->set[i]) && !(foreign && assumed_row(settings->set[i]) < ASSUMED))
             return error_set(
                 error,
                 "%s%s makes no sense for %s: nothing is simulated; of a file's keys those of the view "
-                "can be set, --set view.radius=1 and so on",
-                said ? said : "--set ", said ? "" : settings->set[i], path);
+                "can be set, --set view.radius=1 and so on%s",
+                said ? said : "--set ", said ? "" : settings->set[i], path,
+                foreign
+                    ? ", and particles.spacing, particles.support, fluids[0].density, box.size, solver.step.dt, gravity"
+                    : "");
     }
     return true;
 }
@@ -213,7 +267,7 @@ static void tell_strange(const char *path, const UnknownSettings *strange, Notes
 
 /* On failure, retries without the command line's settings, to find out if the command line or the file is
    wrong. */
-static bool build(const SnapshotReader *reader, const char *path, const SceneSettings *settings,
+static bool build(const SnapshotReader *reader, const char *path, bool foreign, const SceneSettings *settings,
                   const SnapshotScene *numbers, Scene *scene, Notes *notes, Error *error)
 {
     UnknownSettings strange;
@@ -225,18 +279,32 @@ static bool build(const SnapshotReader *reader, const char *path, const SceneSet
     if (read_scene(reader, path, true, NULL, numbers, scene, NULL, &strange, &why) ||
         !read_scene(reader, path, false, settings, numbers, scene, notes, &strange, error))
         return false;
+    if (foreign) /* no settings are expected */
+        return true;
     notes_add(notes, "%.120s: %s%.160s; shown without solids, and with the view's defaults", path,
               *why.message ? "its settings are no scene of this slosh: " : "says nothing of its settings",
               why.message);
     return true;
 }
 
-bool recorded_scene(const SnapshotReader *reader, const char *path, const SceneSettings *settings,
-                    SnapshotScene *numbers, Scene *scene, Notes *notes, Error *error)
+bool recorded_scene(const SnapshotReader *reader, const char *path, bool foreign,
+                    const SceneSettings *settings, SnapshotScene *numbers, Scene *scene, Notes *notes,
+                    Error *error)
 {
-    if ((settings && !check_settings(path, settings, error)) ||
-        !snapshot_read_scene(reader, numbers, error) ||
-        !build(reader, path, settings, numbers, scene, notes, error))
+    SceneSettings views = {.count = 0};
+    if ((settings && !check_settings(path, foreign, settings, error)) ||
+        !snapshot_read_scene(reader, numbers, error))
+        return false;
+    if (foreign && settings) { /* assumptions are in the numbers */
+        views = *settings;
+        views.count = 0;
+        for (int i = 0; i < settings->count; i++)
+            if (assumed_row(settings->set[i]) == ASSUMED) {
+                views.set[views.count] = settings->set[i];
+                views.said[views.count++] = settings->said[i];
+            }
+    }
+    if (!build(reader, path, foreign, foreign ? &views : settings, numbers, scene, notes, error))
         return false;
     take_numbers(reader, numbers, scene);
     return true;

@@ -81,6 +81,31 @@ bool volume_header_load(const char *path, VolumeHeader *header, Error *error);
    if the raw file has another length than the header gives, or a value that is not finite. */
 bool volume_file_load(const char *path, VolumeData *volume, float **values, Error *error);
 
+/* PLY files: the points, which must be the first element, with numbers as properties, in text or binary. */
+
+enum { PLY_ASCII, PLY_LITTLE, PLY_BIG };
+enum { PLY_PROPERTIES_MAX = 64, PLY_NAME_SIZE = 64 };
+
+typedef struct Ply {
+    size_t count; /* of points */
+    double time;  /* s, of a comment with the words "time NUMBER"; NAN: none */
+    int properties;
+    char name[PLY_PROPERTIES_MAX][PLY_NAME_SIZE];
+    /* private */
+    const char *path, *at, *end;
+    int line, format, type[PLY_PROPERTIES_MAX];
+    Error *error;
+} Ply;
+
+/* Reads the head. Returns false with "path:line: problem; advice". Pure; the bytes must outlive `ply`. */
+bool ply_begin(Ply *ply, const char *path, const char *bytes, size_t size, Error *error);
+
+/* Reads the values of the next point. Pure. */
+bool ply_row(Ply *ply, double value[PLY_PROPERTIES_MAX]);
+
+/* Sets the error "path:line: what"; returns false. */
+bool ply_fail(const Ply *ply, const char *what);
+
 /* Scattered points with normals from a PLY file. */
 
 typedef struct PointsFile {
