@@ -209,6 +209,9 @@ bool render_write_json(const RenderPlan *plan, const Session sessions[], const P
 /* `slosh render FILE.h5part`: pictures of a recorded run. Returns the exit code. */
 int render_file(const Args *args);
 
+/* `slosh info FILE.h5part`: steps, scalars and assumptions of a file of particles. Returns the exit code. */
+int info_file(const Args *args);
+
 /* `slosh render` of a recorded session, which is simulated again. Returns the exit code. */
 int render_session(const Args *args);
 

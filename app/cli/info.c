@@ -6,6 +6,7 @@
 #include "app/files/pictures.h"
 #include "app/run/measure/measure.h"
 #include "app/run/offscreen.h"
+#include "app/run/playback/playback.h"
 #include "app/scene/scene.h"
 #include "render/frame/view.h"
 #include "sim/def/fluids.h"
@@ -393,6 +394,12 @@ static int run_command(const Args *args)
     Notes notes;
     SceneSettings settings = args->settings;
     Scene scene;
+    if (args->scene_count && recorded_is_file(args->scenes[0])) {
+        if (!own(args)->save)
+            return info_file(args);
+        error_set(&error, "--save makes no sense for %s: the file is no scene", args->scenes[0]);
+        return fail(EXIT_USAGE, &error);
+    }
     if (args->scene_count && !scene_load(args->scenes[0], &settings, &scene, &notes, &error))
         return fail(EXIT_USAGE, &error);
     if (args->json && !json_file_check(args->json, &error))
@@ -422,8 +429,9 @@ static const OptionRow options[] = {
 
 const Command command_info = {
     .name = "info",
-    .usage = "[SCENE] [OPTIONS]",
-    .help = "lists what there is to choose from, and a scene's settings",
+    .usage = "[SCENE|IN.h5part] [OPTIONS]",
+    .help =
+        "lists what there is to choose from, and a scene's settings; of a file of particles its steps and scalars",
     .takes = "scene",
     .takes_max = 1,
     .own_size = sizeof(InfoOptions),

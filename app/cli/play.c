@@ -92,7 +92,8 @@ static const OptionRow options[] = {
 const Command command_play = {
     .name = "play",
     .usage = "[SCENE|IN.h5part] [OPTIONS]",
-    .help = "opens the window: the box in your hand, or a recorded run; without a scene, box_slosh",
+    .help =
+        "opens the window: the box in your hand, or a recorded run, or particles of other programs; without a scene, box_slosh",
     .takes = "scene",
     .takes_max = 1,
     .width = 1280,

@@ -351,12 +351,45 @@ static bool add_kind(SnapshotForeign *foreign, double value)
     return true;
 }
 
+/* The median density of a fluid's particles; 0: none. */
+static double density_of_fluid(const SnapshotForeign *foreign, const ForeignTable *table, int fluid)
+{
+    double *value = malloc((table->count + 1) * sizeof *value), middle = 0;
+    size_t count = 0;
+    for (size_t i = 0; value && i < table->count; i++) {
+        value[count] = component(table, FOREIGN_DENSITY, 0, i);
+        if (foreign->kinds == 0 || component(table, FOREIGN_FLUID, 0, i) == foreign->kind[fluid])
+            count += isfinite(value[count]) && value[count] > 0;
+    }
+    if (count > 0) {
+        qsort(value, count, sizeof *value, ascending);
+        middle = value[count / 2];
+    }
+    free(value);
+    return middle;
+}
+
+static void choose_densities(SnapshotForeign *foreign, const SnapshotAssumptions *assume,
+                             const ForeignTable *table, Notes *notes)
+{
+    SnapshotScene *scene = &foreign->scene;
+    const bool dense = has(table, FOREIGN_DENSITY);
+    char words[200] = "", one[32];
+    for (size_t k = 0; k < scene->fluid_count; k++) {
+        const double found = dense ? density_of_fluid(foreign, table, (int)k) : 0;
+        scene->density[k] = k == 0 && assume->density > 0 ? assume->density : found > 0 ? found : 1000;
+        snprintf(one, sizeof one, "%.5g", scene->density[k]);
+        add_words(words, sizeof words, ", ", one);
+    }
+    if (dense && (assume->density <= 0 || scene->fluid_count > 1))
+        notes_add(notes, "%.60s: density at rest %s kg/m3, the median; another: --set fluids[0].density=...",
+                  foreign->path, words);
+}
+
 static void choose_fluids(SnapshotForeign *foreign, const SnapshotAssumptions *assume,
                           const ForeignTable *table, Notes *notes)
 {
     SnapshotScene *scene = &foreign->scene;
-    const bool dense = has(table, FOREIGN_DENSITY);
-    double rest = assume->density > 0 ? assume->density : dense ? median(table, FOREIGN_DENSITY, 0) : 0;
     bool fits = has(table, FOREIGN_FLUID);
     ForeignPlace place;
     for (size_t i = 0; fits && i < table->count; i++) {
@@ -378,14 +411,7 @@ static void choose_fluids(SnapshotForeign *foreign, const SnapshotAssumptions *a
             foreign->kind[k] = k;
         foreign->kinds = (int)scene->fluid_count;
     }
-    if (!(rest > 0))
-        rest = 1000;
-    else if (assume->density <= 0)
-        notes_add(notes,
-                  "%.60s: density at rest %.5g kg/m3, the median; another: --set fluids[0].density=...",
-                  foreign->path, rest);
-    for (size_t k = 0; k < scene->fluid_count; k++)
-        scene->density[k] = rest;
+    choose_densities(foreign, assume, table, notes);
 }
 
 /* ---- box, ids, times ---- */
@@ -409,7 +435,7 @@ static void choose_box(SnapshotForeign *foreign, const SnapshotAssumptions *assu
         return;
     }
     for (int k = 0; k < 3; k++) {
-        scene->box_size[k] = high[k] - low[k] + spacing;
+        scene->box_size[k] = fmax(high[k] - low[k] + spacing, 3 * spacing);
         foreign->offset[k] = k == 1 ? low[k] - spacing / 2 : (low[k] + high[k]) / 2;
     }
     if (scene->dimensions == 2)
@@ -652,11 +678,14 @@ static bool fill(const SnapshotForeign *foreign, const ForeignTable *table, Snap
     fill_vector(foreign, table, FOREIGN_PLACE, foreign->offset, step->position);
     if (moves)
         fill_vector(foreign, table, FOREIGN_VELOCITY, none, step->velocity);
+    fill_fluids(foreign, table, step->fluid);
     for (size_t i = 0; foreign->scene.dimensions == 2 && i < step->count; i++)
         step->position[2][i] = 0;
     for (size_t i = 0; dense && i < step->count; i++)
-        step->compression[i] = (float)((double)step->density[i] / foreign->scene.density[0] - 1);
-    fill_fluids(foreign, table, step->fluid);
+        step->compression[i] =
+            step->fluid[i] < 0
+                ? 0
+                : (float)((double)step->density[i] / foreign->scene.density[step->fluid[i]] - 1);
     fill_ids(foreign, table, step->id);
     mark_lacks(step, "velocity_0", moves);
     mark_lacks(step, "velocity_1", moves);

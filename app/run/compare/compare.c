@@ -212,9 +212,10 @@ bool compare_open_file(const char *scene, const ViewDef *view, int entry, Record
                          "the present one, where there is a %.300s; write its whole path",
                          entry, path, name);
     if (!recorded_is_file(path))
-        return error_set(error,
-                         "views[%d].file: %.300s is no recorded run; name one of `slosh run`, *.h5part",
-                         entry, path);
+        return error_set(
+            error,
+            "views[%d].file: %.300s is no recorded run; name one of `slosh run`, *.h5part, or particles of another program",
+            entry, path);
     if (!recorded_open(path, NULL, out, &own, error))
         return blame(entry, error);
     for (int i = 0; i < own.count; i++)

@@ -94,6 +94,14 @@ static void drop_beside(Recorded *recorded, const SceneSettings *settings, Notes
     }
 }
 
+static bool sets_color(const SceneSettings *settings)
+{
+    bool sets = sets_views(settings);
+    for (int i = 0; settings && i < settings->count; i++)
+        sets |= strncmp(settings->set[i], "view.color_by=", strlen("view.color_by=")) == 0;
+    return sets;
+}
+
 static bool understand(Recorded *recorded, const SceneSettings *settings, Notes *notes, Error *error)
 {
     if (snapshot_count_steps(recorded->reader) == 0)
@@ -105,7 +113,11 @@ static bool understand(Recorded *recorded, const SceneSettings *settings, Notes 
     recorded->flaws = snapshot_flaws(recorded->reader, true);
     recorded->flaws.shown = true;
     tell_gap(recorded->reader, recorded->path, notes);
-    return count(recorded, error) && look_at_first(recorded, notes, error);
+    if (!count(recorded, error) || !look_at_first(recorded, notes, error))
+        return false;
+    if (recorded->foreign && !sets_color(settings)) /* the default colour may be missing in the file */
+        recorded_adapt(recorded, &recorded->scene.view, notes);
+    return true;
 }
 
 bool recorded_open(const char *path, const SceneSettings *settings, Recorded *out, Notes *notes, Error *error)
