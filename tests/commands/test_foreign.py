@@ -50,7 +50,7 @@ class Vtk:
         head, data = self.parts(values.astype(values.dtype.newbyteorder(self.end)).tobytes())
         text = base64.b64encode(head) + base64.b64encode(data) if 'zlib' in self.form else base64.b64encode(head + data)
         if 'appended' not in self.form:
-            return tag + b'format="binary">\n' + text + b'\n<InformationKey name="U" location="L">m</InformationKey></DataArray>'
+            return tag + b'format="binary">\n' + text + b'\n<InformationKey name="R" location="L"><Value index="0">1</Value></InformationKey></DataArray>'
         self.appended += (text if 'base64' in self.form else head + data)
         return tag + b'format="appended" offset="%d"/>' % (len(self.appended) - len(text if 'base64' in self.form else head + data))
 

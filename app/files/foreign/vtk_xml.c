@@ -126,6 +126,17 @@ static void end_array(Xml *xml)
     xml->open = false;
 }
 
+/* Names of parts with arrays; elements within an array are none. */
+static bool is_section(const char *name)
+{
+    static const char *const names[] = {"FieldData", "PointData", "CellData", "Points", "Verts",
+                                        "Lines",     "Strips",    "Polys",    "Cells"};
+    bool is = false;
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+        is |= strcmp(name, names[k]) == 0;
+    return is;
+}
+
 static void XMLCALL on_begin(void *user, const char *name, const char **attributes)
 {
     Xml *xml = user;
@@ -142,7 +153,7 @@ static void XMLCALL on_begin(void *user, const char *name, const char **attribut
         xml->raw = strcmp(attribute(attributes, "encoding"), "raw") == 0;
         xml->appended = (size_t)XML_GetCurrentByteIndex(xml->parser);
         XML_StopParser(xml->parser, XML_FALSE); /* no XML behind */
-    } else if (strcmp(name, "InformationKey") != 0)
+    } else if (is_section(name))
         copy(xml->section, sizeof xml->section, name);
 }
 
