@@ -3,7 +3,7 @@
 #include "app/base/program.h"
 #include "app/cli/cli_private.h"
 #include "app/run/playback/playback.h"
-#include "slosh/world.h"
+#include "sim/world.h"
 
 #include <stdio.h>
 

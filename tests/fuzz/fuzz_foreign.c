@@ -1,5 +1,6 @@
-/* Fuzz target of particles in files of other programs: the first byte chooses the format. Accepted files have as many
-   values as particles, and not more particles than the bytes can hold; refused ones have a reason with the path. */
+/* Fuzz target of particles in files of other programs: the first byte chooses the format. Accepted files have
+   as many values as particles, and not more particles than the bytes can hold; refused ones have a reason
+   with the path. */
 #include "app/files/foreign/foreign.h"
 
 #include <math.h>

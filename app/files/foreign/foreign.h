@@ -7,8 +7,8 @@
 #define APP_FILES_FOREIGN_FOREIGN_H
 
 #include "app/scene/scene.h"
-#include "slosh/error.h"
-#include "slosh/world.h"
+#include "sim/error.h"
+#include "sim/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>
