@@ -125,8 +125,8 @@ bool interrupt_progress_requested(void)
 
 enum { CACHE_BYTES = 4 << 20 }; /* Mesa's index has 1.3 MB */
 
-/* By the linker: slosh's own code lies in between. */
-extern const char __executable_start[], etext[];
+/* By the linker, in a program: slosh's own code lies in between. */
+extern const char __executable_start[] __attribute__((weak)), etext[] __attribute__((weak));
 
 static bool in_own_code(const void *context)
 {
@@ -189,11 +189,18 @@ static bool has_room(char *path)
     return failed || (double)disk.f_bavail * (double)disk.f_frsize >= CACHE_BYTES;
 }
 
+static char library[PROGRAM_PATH_SIZE]; /* folder of slosh as a library; "": a program */
+
+void program_is_library(const char *folder)
+{
+    snprintf(library, sizeof library, "%s", folder);
+}
+
 void driver_error_install(void)
 {
     char path[1024], above[1024];
     static bool begun;
-    if (begun)
+    if (begun || *library)
         return;
     begun = true;
     catch_crashes();
@@ -285,6 +292,8 @@ void progress_end(Progress *progress)
 /* The folder of the program. */
 static bool program_folder(char folder[PROGRAM_PATH_SIZE])
 {
+    if (*library)
+        return snprintf(folder, PROGRAM_PATH_SIZE, "%s", library) > 0;
     const ssize_t length = readlink("/proc/self/exe", folder, PROGRAM_PATH_SIZE - 1);
     if (length <= 0)
         return false;

@@ -94,6 +94,10 @@ int compare_numbers(const void *a, const void *b);
 
 enum { PROGRAM_PATH_SIZE = 1024 };
 
+/* From now on slosh is a library in the process of a different program: slosh's own files are found from
+   `folder`, and handlers of crashes are not installed. Call first. */
+void program_is_library(const char *folder);
+
 /* The folder with scenes/: PREFIX/share/slosh of an installed program, or the sources of a program in its
    build tree. False: neither exists. */
 bool program_data_folder(char folder[PROGRAM_PATH_SIZE]);

@@ -110,6 +110,9 @@ void snapshot_close(SnapshotWriter *snapshot);
 SnapshotWriter *snapshot_resume(const char *path, const Scene *scene, const char *hand, WorldState *state,
                                 bool *busy, Error *error);
 
+/* Reads the last state of a file without opening the file for more steps; otherwise like snapshot_resume. */
+bool snapshot_load(const char *path, const Scene *scene, WorldState *state, Error *error);
+
 /* Like snapshot_create and snapshot_resume, for several processes that write a common file. `share`
    (app/files/snapshot_hdf5.h) must outlive the result; NULL: a single process. These functions fail on all
    processes or on none, like snapshot_append then. Only the first process gets the particles of `state`. */

@@ -206,6 +206,11 @@ SnapshotWriter *snapshot_resume(const char *path, const Scene *scene, const char
     return snapshot_resume_parallel(path, scene, hand, NULL, state, busy, error);
 }
 
+bool snapshot_load(const char *path, const Scene *scene, WorldState *state, Error *error)
+{
+    return read_end(path, scene, "", state, error) > 0;
+}
+
 static bool first_of(const SnapshotStep *step, SnapshotFirst *first)
 {
     first->position = malloc((step->count + 1) * 3 * sizeof *first->position);

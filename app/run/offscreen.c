@@ -171,6 +171,18 @@ Headless *headless_create(int gpu, Error *error)
     return headless;
 }
 
+bool headless_use(Headless *headless, bool current)
+{
+    if (!headless)
+        return false;
+    const EGLContext context = current ? headless->context : EGL_NO_CONTEXT;
+    if (!eglMakeCurrent(headless->display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
+        return false;
+    if (current)
+        gl_context_begin();
+    return true;
+}
+
 void headless_destroy(Headless *headless)
 {
     if (!headless)

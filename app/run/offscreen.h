@@ -21,6 +21,10 @@ typedef struct Headless Headless;
 Headless *headless_create(int gpu, Error *error);
 void headless_destroy(Headless *headless); /* NULL is allowed */
 
+/* Makes the context current on the calling thread, or no context if `current` is false; forgets known values
+   of OpenGL's state. Returns false on failure; a NULL context fails. */
+bool headless_use(Headless *headless, bool current);
+
 /* The driver's name of the renderer, for people; owned by `headless`. */
 const char *headless_renderer(const Headless *headless);
 

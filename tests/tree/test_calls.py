@@ -20,9 +20,9 @@ sys.argv[1] = ""  # test_layers takes the library that only its own tests read
 from test_layers import ROOT, circles, may  # noqa: E402
 
 def objects():
-    """(source file, object file) of each source of sim, render and app that is still there."""
+    """(source file, object file) of each source of sim, render, app and library that is still there."""
     for path in BUILD.rglob("*.o"):
-        match = re.search(r"/(sim(?:/gpu|/ranks)?|render|app)/CMakeFiles/[^/]+\.dir/(.+)\.o$", "/" + str(path.relative_to(BUILD)))
+        match = re.search(r"/(sim(?:/gpu|/ranks)?|render|app|library)/CMakeFiles/[^/]+\.dir/(.+)\.o$", "/" + str(path.relative_to(BUILD)))
         if match and (ROOT / match[1] / match[2]).exists():
             yield str(pathlib.PurePosixPath(match[1], match[2])), path
 

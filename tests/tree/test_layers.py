@@ -72,8 +72,11 @@ APP = {
     "cli": "base run/measure scene/yaml scene run/recording input/device input files run/playback run run/compare cli/args bench bench/cases lab window",
     "ranks": "base run/measure scene files run cli/args bench lab cli",
 }
+LIBRARY = {"": ""}  # above the program's parts without a terminal and a window
+NOT_OF_LIBRARY = ("app/cli", "app/window", "app/bench", "app/lab", "app/input", "app/ranks", "app/run/compare", "sim/ranks")
 FLOORS = [("sim", SIM, []), ("sim/gpu", GL, ["sim"]), ("sim/ranks", {"": ""}, ["sim"]),
-          ("render", RENDER, ["sim", "sim/gpu"]), ("app", APP, ["sim", "sim/gpu", "sim/ranks", "render"])]
+          ("render", RENDER, ["sim", "sim/gpu"]), ("app", APP, ["sim", "sim/gpu", "sim/ranks", "render"]),
+          ("library", LIBRARY, ["sim", "sim/gpu", "render", "app"])]
 DRAWS_NOTHING = {"base", "run/measure", "scene/yaml", "scene/import", "run/recording", "input/device"}  # rooms of app without render and sim/gpu
 
 
@@ -112,10 +115,13 @@ def may():
                 own.append("sim/gpu")
             down = [w for w in under if not (floor == "app" and room in DRAWS_NOTHING and not w.startswith("sim/"))]
             down = [where for where in down if where != "sim/ranks" or room == "ranks"]  # no other command needs MPI
+            if floor == "library":
+                down = ["slosh", *(where for where in down if not where.startswith(NOT_OF_LIBRARY))]
             own_shaders = f"sim/{room}".replace("methods/", "") if floor == "sim" else SHADERS_OF.get(folder(floor, room), room.split("/")[-1])
             blocks = [f"shaders/{name}" for name in [*SHADERS.get(floor, "").split(), own_shaders] if floor in SHADERS]
             allowed[folder(floor, room)] = [*down, *own, folder(floor, room), *blocks, PUBLIC]
     allowed[PUBLIC] = [PUBLIC]
+    allowed["include/slosh"] = ["slosh"]  # the C API: its headers include each other alone
     return allowed
 
 
@@ -124,7 +130,7 @@ def includes(path):
 
 
 def sources():
-    for floor in ("sim", "render", "app"):
+    for floor in ("include", "sim", "render", "app", "library"):
         yield from sorted(path for path in (ROOT / floor).rglob("*.[ch]*") if path.suffix in (".c", ".h", ".cpp"))
 
 
@@ -202,7 +208,7 @@ class Layers(unittest.TestCase):
     def test_each_header_has_a_guard_of_its_own(self):
         """Of two with one guard a file that includes both loses the second, without a word."""
         owners = collections.defaultdict(list)
-        for path in [*ROOT.glob("sim/**/*.h"), *ROOT.glob("render/**/*.h"), *ROOT.glob("app/**/*.h"), *ROOT.glob("tests/**/*.h")]:
+        for path in [*ROOT.glob("include/**/*.h"), *ROOT.glob("library/**/*.h"), *ROOT.glob("sim/**/*.h"), *ROOT.glob("render/**/*.h"), *ROOT.glob("app/**/*.h"), *ROOT.glob("tests/**/*.h")]:
             guard = re.search(r"^#ifndef (\w+)\n#define \1$", path.read_text(), re.M)
             owners[guard and guard[1]].append(str(path.relative_to(ROOT)))
         owners.pop(None, None)  # lists that are included more than once

@@ -11,7 +11,7 @@ MADE_ONCE = {'FieldTable', 'MeshShape'}  # by app/scene/import, for as long as t
 def structs():
     """{name: members} of the structs in headers, without comments."""
     found = {}
-    for floor in ('sim', 'render', 'app'):
+    for floor in ('sim', 'render', 'app', 'library'):
         for path in (ROOT / floor).rglob('*.h'):
             text = re.sub(r'/\*.*?\*/', '', path.read_text(), flags=re.S)
             for name, body in re.findall(r'typedef struct (\w+) \{(.*?)\n\} \1;', text, re.S):
