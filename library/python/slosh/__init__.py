@@ -42,6 +42,8 @@ def _load():
     here = pathlib.Path(__file__).parent
     near = [here.parent.parent / "libslosh.so.1", *sorted(here.parents[2].glob("libslosh.so.1")), *sorted(here.parents[2].glob("*/libslosh.so.1"))]
     names = [os.environ.get("SLOSH_LIBRARY"), *(str(path) for path in near if path.exists()), "libslosh.so.1"]
+    if "OMP_WAIT_POLICY" not in os.environ:  # libgomp reads this when it is loaded; else idle threads spin for milliseconds
+        os.environ.setdefault("GOMP_SPINCOUNT", "1000")
     return ctypes.CDLL(next(name for name in names if name))
 
 
