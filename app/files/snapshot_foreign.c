@@ -68,7 +68,7 @@ static void tell_columns(const SnapshotForeign *foreign, const ForeignTable *tab
         add_words(taken, sizeof taken, ", ", one);
     }
     for (int k = 0; k < table->column_count; k++)
-        if (table->column[k].role < 0)
+        if (table->column[k].role < 0 && table->column[k].name[0])
             add_words(left, sizeof left, ", ", table->column[k].name);
     notes_add(notes, "%.60s: %s", foreign->path, taken);
     if (*left)

@@ -246,6 +246,27 @@ static bool decode(ByteSource *from)
     return true;
 }
 
+/* Decodes groups of four letters without spaces or padding, as many as fit; most of an array. */
+static size_t decode_plain(ByteSource *from, unsigned char *out, size_t size)
+{
+    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    unsigned char digit[256];
+    size_t done = 0;
+    memset(digit, 64, sizeof digit);
+    for (unsigned k = 0; k < 64; k++)
+        digit[(unsigned char)letters[k]] = (unsigned char)k;
+    for (; size - done >= 3 && from->end - from->at >= 4; done += 3, from->at += 4) {
+        const unsigned char a = digit[from->at[0]], b = digit[from->at[1]], c = digit[from->at[2]],
+                            d = digit[from->at[3]];
+        if ((a | b | c | d) & 64)
+            break;
+        out[done] = (unsigned char)(a << 2 | b >> 4);
+        out[done + 1] = (unsigned char)(b << 4 | c >> 2);
+        out[done + 2] = (unsigned char)(c << 6 | d);
+    }
+    return done;
+}
+
 static bool take(ByteSource *from, void *to, size_t size)
 {
     unsigned char *out = to;
@@ -257,7 +278,10 @@ static bool take(ByteSource *from, void *to, size_t size)
         return true;
     }
     while (size > 0) {
-        if (from->rest_count == 0 && !decode(from))
+        const size_t plain = from->rest_count == 0 && size > 64 ? decode_plain(from, out, size) : 0;
+        out += plain;
+        size -= plain;
+        if (from->rest_count == 0 && size > 0 && !decode(from))
             return false;
         const int some = size < (size_t)from->rest_count ? (int)size : from->rest_count;
         memcpy(out, from->rest, (size_t)some);

@@ -17,6 +17,7 @@ static const struct {
     {"short", "int16", 2, true, true},    {"ushort", "uint16", 2, true, false},
     {"int", "int32", 4, true, true},      {"uint", "uint32", 4, true, false},
     {"float", "float32", 4, false, true}, {"double", "float64", 8, false, true},
+    {"long", "int64", 8, true, true},     {"ulong", "uint64", 8, true, false}, /* not of Turk; of meshio */
 };
 enum { TYPES = sizeof types / sizeof *types };
 
