@@ -147,6 +147,8 @@ def main():
     bpy.ops.wm.read_homefile(use_empty=True)
     scene, files, things = bpy.context.scene, files_of(args.input), []
     scene.render.fps, scene.render.fps_base = math.ceil(args.fps), math.ceil(args.fps) / args.fps
+    if args.output and args.output.endswith('.png'):  # the one file that is drawn
+        files = [file for file in files if args.time is None or file[1] <= args.time + 1e-9][-1:] or files[:1]
     begins = [round(time * args.fps) for _, time in files] + [None]
     for (path, _), begin, end in zip(files, begins, begins[1:]):
         for thing in (own := load(path)):
@@ -158,11 +160,10 @@ def main():
                 show_at(thing, begin, end)
         things.append(own)
     scene.frame_start, scene.frame_end = begins[0], begins[-2]
-    last = max((k for k, (_, time) in enumerate(files) if args.time is None or time <= args.time + 1e-9), default=0)
-    scene.frame_set(begins[last])
+    scene.frame_set(begins[0])
     print(f'{args.input}: {len(files)} files, {sum(map(len, things))} objects, frames {scene.frame_start} to {scene.frame_end}')
     if args.output and args.output.endswith('.png'):
-        add_camera(things[last])
+        add_camera(things[0])
         draw(args.output, args.size, args.samples)
     elif args.output:
         bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath(args.output))
