@@ -66,6 +66,13 @@ typedef uint64_t ParticleId;
    the grid of backend fragment, else 0. X(ENUM, name, unit) */
 #define BACKEND_SCALAR_LIST(X) X(LOST, "lost", "")
 
+/* Numbers of files of other programs, under names of their own (app/files/foreign). X(ENUM, name, unit) */
+#define FILE_SCALAR_LIST(X)                                                                                  \
+    X(COLUMN_1, "column_1", "")                                                                              \
+    X(COLUMN_2, "column_2", "")                                                                              \
+    X(COLUMN_3, "column_3", "")                                                                              \
+    X(COLUMN_4, "column_4", "")
+
 /* In every state, but not as a column: sim/state.h. X(ENUM, name, unit) */
 #define BIRTH_SCALAR_LIST(X) X(BORN, "born", "s")
 
@@ -95,6 +102,7 @@ typedef uint64_t ParticleId;
     STATE_SCALAR_LIST(X)                                                                                     \
     OWN_SCALAR_LIST(X)                                                                                       \
     BACKEND_SCALAR_LIST(X)                                                                                   \
+    FILE_SCALAR_LIST(X)                                                                                      \
     BIRTH_SCALAR_LIST(X)                                                                                     \
     DERIVED_SCALAR_LIST(X)
 
@@ -105,7 +113,7 @@ typedef enum Scalar {
         SCALAR_COUNT
 } Scalar;
 
-/* Order: scalars of a state, then OWN_SCALAR_LIST, BACKEND_SCALAR_LIST, the birth time. */
+/* Order: scalars of a state, then OWN_SCALAR_LIST, BACKEND_SCALAR_LIST, FILE_SCALAR_LIST, the birth time. */
 enum { SCALAR_OWN = SCALAR_ID + 1, SCALAR_OWN_END = SCALAR_LOST, SCALAR_STATE_COUNT = SCALAR_BORN + 1 };
 
 /* In the order of Scalar, ended by a NULL name. */

@@ -21,6 +21,8 @@ struct SnapshotForeign {
     double interval; /* s */
     int kinds;       /* values of the column of fluids; 0: fluids are numbers from 0 */
     double kind[FLUIDS_MAX];
+    char other[FOREIGN_OTHERS]
+              [FOREIGN_NAME_SIZE]; /* names in the first step of scalars column_1, ...; "": none */
 };
 
 enum { SAMPLES = 400, NEIGHBOURS = 32 }; /* particles that distances are measured from; of each */
@@ -54,9 +56,18 @@ static void add_words(char *line, size_t size, const char *between, const char *
     snprintf(line + used, size - used, "%s%s", used > 0 ? between : "", words);
 }
 
+static void keep_others(SnapshotForeign *foreign, const ForeignTable *table)
+{
+    for (int k = 0; k < FOREIGN_OTHERS; k++) {
+        ForeignPlace place;
+        if (foreign_find(table, FOREIGN_ROLES + k, 0, &place))
+            snprintf(foreign->other[k], FOREIGN_NAME_SIZE, "%s", place.name);
+    }
+}
+
 static void tell_columns(const SnapshotForeign *foreign, const ForeignTable *table, Notes *notes)
 {
-    char taken[320] = "", left[240] = "", one[FOREIGN_NAME_SIZE + 32];
+    char taken[320] = "", left[240] = "", others[320] = "", one[FOREIGN_NAME_SIZE + 32];
     for (int role = 0; role < FOREIGN_ROLES; role++) {
         ForeignPlace place;
         const bool vector = foreign_role_is_vector((ForeignRole)role);
@@ -71,8 +82,16 @@ static void tell_columns(const SnapshotForeign *foreign, const ForeignTable *tab
         if (table->column[k].role < 0 && table->column[k].name[0])
             add_words(left, sizeof left, ", ", table->column[k].name);
     notes_add(notes, "%.60s: %s", foreign->path, taken);
+    for (int k = 0; k < FOREIGN_OTHERS; k++)
+        if (*foreign->other[k]) {
+            snprintf(one, sizeof one, "'%.40s' is %s", foreign->other[k],
+                     scalar_name((Scalar)(SCALAR_COLUMN_1 + k)));
+            add_words(others, sizeof others, ", ", one);
+        }
+    if (*others)
+        notes_add(notes, "%.60s: further scalars: %s", foreign->path, others);
     if (*left)
-        notes_add(notes, "%.60s: not shown, as slosh has no scalar of that name: %s", foreign->path, left);
+        notes_add(notes, "%.60s: not shown: %s", foreign->path, left);
 }
 
 static bool check_columns(const SnapshotForeign *foreign, const ForeignTable *table, Error *error)
@@ -524,6 +543,7 @@ static bool understand(SnapshotForeign *foreign, const SnapshotAssumptions *assu
     if (!(extent.low[0] <= extent.high[0] && extent.low[1] <= extent.high[1] &&
           extent.low[2] <= extent.high[2]))
         return error_set(error, "%.300s: has no particle with a place", foreign->path);
+    keep_others(foreign, table);
     tell_columns(foreign, table, notes);
     choose_axes(foreign, assume, &extent, notes);
     if (!choose_spacing(foreign, assume, table, notes, error) ||
@@ -618,7 +638,7 @@ static void fill_vector(const SnapshotForeign *foreign, const ForeignTable *tabl
     }
 }
 
-static bool fill_number(const ForeignTable *table, ForeignRole role, float *to)
+static bool fill_number(const ForeignTable *table, int role, float *to)
 {
     ForeignPlace place;
     if (!foreign_find(table, role, 0, &place) || !place.value)
@@ -670,6 +690,23 @@ static bool fill_acceleration(const SnapshotForeign *foreign, const ForeignTable
     return true;
 }
 
+/* Columns without a name that slosh knows: by the names of the first step. */
+static bool fill_others(const SnapshotForeign *foreign, const ForeignTable *table, SnapshotStep *step)
+{
+    for (int k = 0; k < FOREIGN_OTHERS; k++) {
+        ForeignPlace place;
+        float *to = NULL;
+        for (int at = 0; *foreign->other[k] && !to && at < FOREIGN_OTHERS; at++)
+            if (foreign_find(table, FOREIGN_ROLES + at, 0, &place) && place.value &&
+                strcmp(place.name, foreign->other[k]) == 0) {
+                if (!(to = snapshot_step_allocate_scalar(step, (Scalar)(SCALAR_COLUMN_1 + k))))
+                    return false;
+                fill_number(table, FOREIGN_ROLES + at, to);
+            }
+    }
+    return true;
+}
+
 static bool fill(const SnapshotForeign *foreign, const ForeignTable *table, SnapshotStep *step)
 {
     const double none[3] = {0, 0, 0};
@@ -697,7 +734,8 @@ static bool fill(const SnapshotForeign *foreign, const ForeignTable *table, Snap
     mark_lacks(step, "id", foreign->by_order || has(table, FOREIGN_ID));
     if (step->count == 0) /* an empty file may have no columns */
         step->lacks = 0;
-    return !has_vector(table, FOREIGN_ACCELERATION) || fill_acceleration(foreign, table, step);
+    return fill_others(foreign, table, step) &&
+           (!has_vector(table, FOREIGN_ACCELERATION) || fill_acceleration(foreign, table, step));
 }
 
 bool snapshot_foreign_read(SnapshotForeign *foreign, size_t index, SnapshotStep *step, Error *error)

@@ -293,13 +293,16 @@ static bool check_range(const SceneCheck *check, const char *view, const char *k
     return true;
 }
 
+/* Of FILE_SCALAR_LIST; whether a file has them is known to its reader. */
+#define FILE_SCALARS (PARTICLE_SCALAR(SCALAR_BORN) - PARTICLE_SCALAR(SCALAR_COLUMN_1))
+
 /* The first scalar read by the view that no state of the world has; SCALAR_COUNT: none. Accelerations always
    exist, as they are computed on request. */
-static Scalar missing_scalar(const ViewDef *view, const WorldDef *world)
+static Scalar missing_scalar(const ViewDef *view, const WorldDef *world, bool recorded)
 {
     const uint32_t lacks = renderer_attributes(view) & (PARTICLE_SCALAR(SCALAR_STATE_COUNT) - 1) &
                            ~(columns_scalars(world) | 7U * PARTICLE_SCALAR(SCALAR_ACCELERATION_X) |
-                             PARTICLE_SCALAR(SCALAR_BORN));
+                             PARTICLE_SCALAR(SCALAR_BORN) | (recorded ? FILE_SCALARS : 0));
     int s = SCALAR_OWN;
     while (s < SCALAR_STATE_COUNT && !(lacks & PARTICLE_SCALAR(s)))
         s++;
@@ -318,7 +321,7 @@ static const char *key_of(const ViewDef *view, Scalar scalar)
 static bool check_scalars(const SceneCheck *check, const char *view, const ViewDef *def)
 {
     const WorldDef *world = &check->scene->world;
-    const Scalar lacks = missing_scalar(def, world);
+    const Scalar lacks = missing_scalar(def, world, check->scene->recorded);
     char path[64], has[256] = "";
     if (lacks == SCALAR_COUNT)
         return true;
@@ -332,6 +335,9 @@ static bool check_scalars(const SceneCheck *check, const char *view, const ViewD
             return FAIL(check, path,
                         "only particles of backend %s have %s; set solver.backend or leave it out",
                         (*backend)->name, scalar_name(lacks));
+    if (PARTICLE_SCALAR(lacks) & FILE_SCALARS)
+        return FAIL(check, path, "%s is of files of other programs; a scene has no such column",
+                    scalar_name(lacks));
     return FAIL(check, path, "particles of this scene have no %s; solver.method %s keeps %s",
                 scalar_name(lacks), world->method, *has ? has : "nothing of its own");
 }

@@ -56,6 +56,7 @@ typedef enum ScenePurpose {
 typedef struct Scene {
     char path[1024]; /* as found; used in messages */
     ScenePurpose purpose;
+    bool recorded; /* states come from a file, not from a solver */
     char title[128];
     WorldDef world;
     ViewDef view;

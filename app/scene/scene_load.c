@@ -411,6 +411,7 @@ static bool read_scene(YamlTree *tree, const SceneSettings *settings, Scene *out
         return false;
     out->world.dimensions = tree->dimensions;
     out->compared_set = settings->compared_set ? text_intern(settings->compared_set) : NULL;
+    out->recorded = settings->recorded;
     return scene_read_meshes(tree, out, settings, notes, error) && scene_check(tree, out, error) &&
            (!needs_tables || scene_read_tables(tree, out, error));
 }

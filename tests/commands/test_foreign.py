@@ -205,6 +205,30 @@ class Foreign(CommandTest):
         for picture in pictures[:2]:
             self.assertLessEqual(abs(picture - pictures[2]).max(), 2)
 
+    def test_other_columns(self):
+        """Numbers of any name are scalars: the picture of the same numbers as pressure; by name in each file of a series."""
+        values = 100 * PLACE[:, 0] + PLACE[:, 2]
+        pictures = []
+        for head, color in ('x,y,z,press,skin', 'pressure'), ('x,y,z,heat,skin', 'column_1'), ('x,y,z,skin,heat', 'column_2'):
+            rows = [[*place, *([value, 7] if head.endswith('skin') else [7, value])] for place, value in zip(PLACE, values)]
+            for k in range(2):  # the second file has its columns in another order
+                order = [0, 1, 2, 4, 3] if k else range(5)
+                names = [head.split(',')[i] for i in order]
+                self.write(f'a{k}.csv', ','.join(names) + '\n' + ''.join(','.join('%.9g' % row[i] for i in order) + '\n' for row in rows))
+            said = self.ok('render', 'a*.csv', '-o', 'a.png', '--size', '160x120', '--quiet', '--set', f'view.color_by={color}', '--set',
+                           'view.legend=false', '--set', 'view.kind=spheres')
+            pictures.append(self.pixels('a.png'))
+            self.assertIn("further scalars: 'skin' is column_1\n" if color == 'pressure' else f"'heat' is {color}", said)
+        self.assertGreater(numpy.ptp(pictures[0].reshape(-1, 3) @ [1, -1, 0]), 100)
+        numpy.testing.assert_array_equal(pictures[0], pictures[1])
+        numpy.testing.assert_array_equal(pictures[0], pictures[2])
+        code, said = self.slosh('render', 'a*.csv', '-o', 'a.png', '--set', 'view.color_by=column_3')
+        self.assertEqual(code, 2)
+        self.assertIn('has no column_3 to colour by', said)
+        code, said = self.slosh('render', 'dam_break', '-o', 'a.png', '--set', 'view.color_by=column_1')
+        self.assertEqual(code, 2)
+        self.assertIn('column_1 is of files of other programs', said)
+
     def test_what_is_set(self):
         """Up along z; a plane; a setting of the solver is refused."""
         self.write('a.csv', table('x,y,z,vx,vy,vz,rho,id'))

@@ -418,7 +418,7 @@ static void what_is_no_file_of_snapshots(void **state)
     write_text("text.h5part", "Step#0");
     assert_refused("text.h5part", "is no file of snapshots");
     H5Fclose(H5Fcreate("other.h5part", H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
-    assert_refused("other.h5part", "has no whole step; shown is what slosh run has written whole");
+    assert_refused("other.h5part", "has no particles that slosh finds; they must be in groups Step#0");
     edit(remove_marks); /* as of a different program */
     assert_refused("a.h5part",
                    "Step#0 is missing or not whole, but there are 2 behind it, such as 'Step#1'; shown is "

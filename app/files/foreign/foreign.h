@@ -39,7 +39,11 @@ typedef enum ForeignRole {
         FOREIGN_ROLES
 } ForeignRole;
 
-enum { FOREIGN_NAME_SIZE = 64, FOREIGN_COLUMNS_MAX = 256, FOREIGN_ALL = (1 << FOREIGN_ROLES) - 1 };
+/* Other columns of a number: role FOREIGN_ROLES + k for number k in the file, as FILE_SCALAR_LIST has room.
+ */
+enum { FOREIGN_OTHERS = SCALAR_BORN - SCALAR_COLUMN_1, FOREIGN_OTHERS_END = FOREIGN_ROLES + FOREIGN_OTHERS };
+
+enum { FOREIGN_NAME_SIZE = 64, FOREIGN_COLUMNS_MAX = 256, FOREIGN_ALL = (1 << FOREIGN_OTHERS_END) - 1 };
 
 const char *foreign_role_words(ForeignRole role);
 
@@ -50,7 +54,7 @@ bool foreign_role_is_vector(ForeignRole role);
 typedef struct ForeignColumn {
     char name[FOREIGN_NAME_SIZE];
     int components; /* 1, 2 or 3, or more */
-    int role, axis; /* ForeignRole, and component for the first value; role -1: unknown */
+    int role, axis; /* ForeignRole or another column, and component for the first value; role -1: not shown */
     int rank;       /* place of the name among the role's names, from 0: the best */
     double *value;  /* [components * i + c]; NULL: not kept */
 } ForeignColumn;
@@ -61,6 +65,7 @@ typedef struct ForeignTable {
     double time; /* s, NAN: the file has no time */
     int column_count;
     ForeignColumn column[FOREIGN_COLUMNS_MAX];
+    int others;     /* count of other columns with a role */
     unsigned roles; /* bit k: columns of role k are kept; set before parsing */
     bool head_only; /* set before parsing: only the time is asked for, and count and columns may be missing */
 } ForeignTable;
@@ -72,14 +77,14 @@ void foreign_table_free(ForeignTable *table); /* a zeroed table is allowed */
 ForeignColumn *foreign_column_add(ForeignTable *table, const char *path, const char *name, int components,
                                   Error *error);
 
-/* Where component `axis` of a role lies; false: the table lacks it. */
+/* Where component `axis` of a role or of another column lies; false: the table lacks it. */
 typedef struct ForeignPlace {
     const double *value; /* value[stride * i] */
     size_t stride;
     const char *name;
 } ForeignPlace;
 
-bool foreign_find(const ForeignTable *table, ForeignRole role, int axis, ForeignPlace *place);
+bool foreign_find(const ForeignTable *table, int role, int axis, ForeignPlace *place);
 
 /* ---- formats ---- */
 

@@ -124,6 +124,8 @@ ForeignColumn *foreign_column_add(ForeignTable *table, const char *path, const c
     for (size_t k = 0; k + 1 < sizeof column->name && name[k]; k++)
         column->name[k] = name[k];
     find_role(column);
+    if (column->role < 0 && components == 1 && *column->name && table->others < FOREIGN_OTHERS)
+        column->role = FOREIGN_ROLES + table->others++;
     const double bytes = (double)table->count * components * sizeof(double);
     if (column->role >= 0 && table->roles >> column->role & 1) {
         column->value =
@@ -137,12 +139,12 @@ ForeignColumn *foreign_column_add(ForeignTable *table, const char *path, const c
     return column;
 }
 
-bool foreign_find(const ForeignTable *table, ForeignRole role, int axis, ForeignPlace *place)
+bool foreign_find(const ForeignTable *table, int role, int axis, ForeignPlace *place)
 {
     const ForeignColumn *best = NULL;
     for (int k = 0; k < table->column_count; k++) {
         const ForeignColumn *column = &table->column[k];
-        if (column->role == (int)role && axis >= column->axis && axis < column->axis + column->components &&
+        if (column->role == role && axis >= column->axis && axis < column->axis + column->components &&
             (!best || column->rank < best->rank))
             best = column;
     }
