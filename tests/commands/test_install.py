@@ -1,6 +1,7 @@
 """The installed program: all that belongs to it is under the prefix, wherever that lies, and nothing beside the sources is needed."""
 import gzip
 import os
+import pathlib
 import re
 import shutil
 import subprocess
@@ -272,6 +273,22 @@ class Library(CommandTest):
         header = self.output('readelf', '-d', f'{self.prefix}/lib/libslosh.so.1')
         self.assertIn('soname: [libslosh.so.1]', header)
         self.assertNotRegex(header, 'glfw|hidapi')  # a window and devices are the program's
+
+    def test_the_api_stays(self):
+        """Nothing that a program of an earlier day calls has gone or changed: each declaration of libslosh.so.1 to the letter.
+        New ones are added to the list."""
+        def declarations(text):
+            text = re.sub(r'/\*.*?\*/', '', text, flags=re.S)
+            found = re.findall(r'(?m)^SLOSH_API\s([^;]*;)', text) + re.findall(r'(?m)^((?:enum|typedef struct slosh_\w+) \{[^}]*\}[^;]*;)', text)
+            return {re.sub(r'\s+', ' ', declaration).strip() for declaration in found}
+
+        folder = f'{self.prefix}/include/slosh'
+        there = set().union(*(declarations(pathlib.Path(folder, name).read_text()) for name in os.listdir(folder)))
+        with open(f'{ROOT}/tests/library/api-1.txt') as file:
+            listed = file.read().splitlines()
+        self.assertGreater(len(listed), 60)
+        self.assertEqual([line for line in listed if line not in there], [], 'has gone or changed')
+        self.assertEqual(sorted(there - set(listed)), [], 'is new: add it to tests/library/api-1.txt')
 
     def test_the_module(self):
         """Python finds the installed library, and the library the installed scenes."""

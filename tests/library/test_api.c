@@ -177,6 +177,11 @@ static void a_run_is_recorded_and_opened(void **state)
         assert_true(slosh_run_column(run, 1, slosh_run_column_name(run, k), &x, &error));
         assert_int_equal(x.count, slosh_world_count(world));
     }
+    x.data = NULL;
+    assert_true(slosh_run_column(run, 0, "speed", &x, &error));
+    assert_true(*row(&x, 0) == 0);
+    assert_true(slosh_run_column(run, 2, "speed", &x, &error));
+    assert_true(*row(&x, 0) > 0);
     assert_false(slosh_run_column(run, 3, "position", &x, &error));
     check_said("there is no step 3");
     assert_false(slosh_run_column(run, 0, "colour", &x, &error));
@@ -268,6 +273,15 @@ static void a_mesh_is_closed(void **state)
                     6;
     }
     assert_float_equal(enclosed, slosh_mesh_volume(mesh), 0.01 * volume);
+    const slosh_column x = column_of(world, "position");
+    for (int k = 0; k < 3; k++) { /* the middle of mesh and particles */
+        float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+        for (size_t i = 0; i < slosh_mesh_vertex_count(mesh); i++)
+            low[0] = fminf(low[0], vertex[3 * i + k]), high[0] = fmaxf(high[0], vertex[3 * i + k]);
+        for (size_t i = 0; i < x.count; i++)
+            low[1] = fminf(low[1], row(&x, i)[k]), high[1] = fmaxf(high[1], row(&x, i)[k]);
+        assert_float_equal(low[0] + high[0], low[1] + high[1], 0.3 * spacing);
+    }
     slosh_mesh_free(mesh);
     assert_null(slosh_mesh_create(world, 2, 0, &error));
     check_said("level");

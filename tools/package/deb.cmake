@@ -25,10 +25,12 @@ live, and measures what each stage costs and how right the result is.")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME libslosh1)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_BINARY_DIR}/triggers)
+# What packages linked with the library ask for, and the cache of the linker.
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA "${CMAKE_CURRENT_BINARY_DIR}/shlibs;${CMAKE_CURRENT_BINARY_DIR}/triggers")
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/shlibs "libslosh 1 libslosh1 (>= ${PROJECT_VERSION})\n")
 file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "slosh, libegl1, libgl1-mesa-dri, fonts-dejavu-core")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "slosh")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "libegl1, libgl1-mesa-dri, fonts-dejavu-core")
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
 "slosh simulates fluids with smoothed particle hydrodynamics (SPH). This is its
 shared library. The scenes of slosh are in the package slosh.")
