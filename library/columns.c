@@ -78,6 +78,7 @@ static bool reserve(LibraryBuffer *buffer, size_t bytes)
     LibraryBuffer *older = buffer->data ? malloc(sizeof *older) : NULL;
     if (!data || (buffer->data && !older)) {
         free(data);
+        free(older);
         return false;
     }
     if (older)

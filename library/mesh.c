@@ -58,7 +58,7 @@ static bool make(slosh_world *world, double level, double cell, slosh_mesh *mesh
     const WorldInfo *info = &world->run.info;
     const FieldParticles particles = {
         .count = info->count, .position = library_positions(world), .support = info->support_radius};
-    VolumeGrid grid;
+    VolumeGrid grid = {.cell = 0};
     FieldSlabs slabs = {0};
     IsoMesh iso = {.vertex_count = 0};
     if (!particles.position || !grid_of(&particles, cell * info->spacing, &grid, error))
