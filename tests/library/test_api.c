@@ -355,6 +355,12 @@ static void wrong_scenes_are_errors(void **state)
     check_said("mine.yaml:");
     assert_null(slosh_scene_parse("mine.yaml", NULL, 3, NULL, 0, &error));
     check_said("NULL");
+    const size_t large = 2 << 20;
+    char *spaces = malloc(large);
+    memset(spaces, ' ', large);
+    assert_null(slosh_scene_parse("mine.yaml", spaces, large, NULL, 0, &error));
+    check_said("1 MiB");
+    free(spaces);
     assert_null(slosh_scene_load("dam_break", NULL, 2, &error));
     check_said("NULL");
     assert_null(slosh_scene_load("dam_braek", NULL, 0, NULL));
