@@ -308,9 +308,13 @@ bool play_scene_neighbour(const char *path, int by, char out[1024])
     for (int i = 0; i < count; i++)
         if (strcmp(entries[i]->d_name, name) == 0)
             place = i;
-    const bool found = count > 1 && place >= 0;
-    if (found)
-        snprintf(out, 1024, "%.760s/%s", folder, entries[((place + by) % count + count) % count]->d_name);
+    bool found = false;
+    for (int k = 1; k < count && place >= 0 && !found; k++) { /* tables of probes beside a run are no runs */
+        const char *next = entries[((place + k * by) % count + count) % count]->d_name;
+        found = !recorded_is_file(path) || recorded_is_alike(path, next);
+        if (found)
+            snprintf(out, 1024, "%.760s/%s", folder, next);
+    }
     for (int i = 0; i < count; i++)
         free(entries[i]);
     if (count >= 0)

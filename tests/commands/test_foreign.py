@@ -1,6 +1,7 @@
 """Particles of other programs: each form of each format gives the same particles, read by slosh export and render;
 assumptions are said; wrong files are refused in one line."""
 import base64
+import json
 import os
 import struct
 import subprocess
@@ -244,6 +245,21 @@ class Foreign(CommandTest):
         said = self.particles('flat.csv')[1]
         self.assertIn('flat.csv: z is up, as all particles lie in a plane with it', said)
 
+    def test_info(self):
+        """Two fluids, places alone: what is in the file, and another colour than that of the speed."""
+        fluid = (PLACE[:, 0] > PLACE[:, 0].mean()) * 3
+        self.write('two.csv', 'x,y,z,rho,phase\n' + ''.join(
+            '%g,%g,%g,%g,%d\n' % (*place, 900 if kind else 1000, kind) for place, kind in zip(PLACE, fluid)))
+        self.ok('info', 'two.csv', '--json', 'a.json', '--quiet')
+        found = json.loads(self.read('a.json'))
+        self.assertEqual([found[key] for key in ('file', 'foreign', 'steps', 'particles', 'fluids', 'scalars')],
+                         ['two.csv', True, 1, len(PLACE), 4, ['density', 'compression', 'fluid', 'id']])
+        self.assertAlmostEqual(found['spacing'], SPACING, delta=0.02 * SPACING)
+        self.assertTrue(any('density at rest 1000, 1000, 1000, 900 kg/m3' in line for line in found['notes']), found['notes'])
+        self.assertIn('has no speed to colour by', self.ok('render', 'two.csv', '-o', 'a.png', '--size', '64x48', '--quiet'))
+        code, said = self.slosh('info', 'two.csv', '--save', 'a.yaml')
+        self.assertEqual((code, said), (2, '--save makes no sense for two.csv: the file is no scene\n'))
+
     def test_refused(self):
         """One line each."""
         whole = Vtk('PolyData', 'binary').bytes()
@@ -267,6 +283,11 @@ class Foreign(CommandTest):
             said = self.particles(name, code=2)[1]
             self.assertIn(words_, said)
             self.assertEqual(said.count('\n'), 1, said)
+        with h5py.File(self.path('huge.h5part'), 'w') as file:
+            for axis in 'xyz':
+                file.create_dataset('Step#0/' + axis, (10**9,), 'f4', chunks=(1000,))
+        said = self.particles('huge.h5part', code=2)[1]
+        self.assertEqual(said, "huge.h5part: 'x' claims 1000000000 particles that are not in it\n")
         os.mkdir(self.path('folder.vtp'))
         self.assertIn('folder.vtp: is a folder; name a file in it', self.particles('folder.vtp', code=2)[1])
         self.assertIn('no_*.csv: no file matches', self.particles('no_*.csv', code=2)[1])

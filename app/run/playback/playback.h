@@ -58,6 +58,9 @@ typedef struct Recorded {
 /* True if the name has the ending of a file of particles, or is a pattern of such names. */
 bool recorded_is_file(const char *path);
 
+/* True if both names are of files of the same format. */
+bool recorded_is_alike(const char *one, const char *two);
+
 /* Opens a file. `settings` and `notes` as in recorded_scene; attributes missing in the first step are
    noted in `notes`. Returns false with the reason: no file, no snapshot file, no complete step, not
    written by slosh. */

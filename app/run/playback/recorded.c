@@ -15,6 +15,11 @@ bool recorded_is_file(const char *path)
     return foreign_is_pattern(path) || foreign_format(path) != NULL;
 }
 
+bool recorded_is_alike(const char *one, const char *two)
+{
+    return foreign_format(one) == foreign_format(two);
+}
+
 /* ---- contents of the file ---- */
 
 static void tell_lacks(const char *path, const SnapshotStep *step, Notes *notes)
