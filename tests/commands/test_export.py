@@ -297,7 +297,7 @@ class Bad(ExportTest):
             self.refused('missing.h5part', output, words='missing.h5part: cannot be read: No such file')
             for name in ('text', 'empty', 'folder'):
                 self.refused(f'{name}.h5part', output, words=f'{name}.h5part: is no file of snapshots')
-            self.refused('none.h5part', output, words='none.h5part: has no whole snapshot; make some with slosh run')
+            self.refused('none.h5part', output, words='none.h5part: has no particles that slosh finds')
 
     def test_no_whole_step(self):
         self.make('--time', '0')
