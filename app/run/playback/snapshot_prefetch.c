@@ -1,5 +1,6 @@
 #include "app/run/playback/playback.h"
 
+#include "app/files/foreign/foreign.h"
 #include "app/files/snapshot_hdf5.h"
 #include "sim/world.h"
 
@@ -281,7 +282,8 @@ static void look_for_another(Prefetch *prefetch)
 {
     struct stat now;
     const struct stat *then = &prefetch->file;
-    if (prefetch->status.replaced || stat(prefetch->recorded.path, &now) != 0 ||
+    if (prefetch->status.replaced || foreign_is_pattern(prefetch->recorded.path) ||
+        stat(prefetch->recorded.path, &now) != 0 ||
         (now.st_ino == then->st_ino && now.st_dev == then->st_dev))
         return;
     pthread_mutex_lock(&prefetch->mutex);
@@ -362,7 +364,7 @@ Prefetch *prefetch_create(const PrefetchSetup *setup, Error *error)
     prefetch->kept_most = PREFETCH_CACHE_MOST;
     prefetch->followed_ms = wall_ms();
     prefetch->recorded = *setup->recorded;
-    if (stat(prefetch->recorded.path, &prefetch->file) != 0)
+    if (!foreign_is_pattern(prefetch->recorded.path) && stat(prefetch->recorded.path, &prefetch->file) != 0)
         prefetch->status.replaced = true; /* already gone: a replacement cannot be recognised */
     describe_file(prefetch);
     pthread_mutex_init(&prefetch->mutex, NULL);
