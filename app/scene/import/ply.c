@@ -111,7 +111,7 @@ static bool take_header(Ply *ply)
     }
     if (ply->count > (size_t)(ply->end - ply->at)) /* a point takes at least a byte */
         return ply_fail(ply, "the file ends before its points do");
-    ply->line += ply->format == PLY_ASCII;
+    ply->at -= ply->format == PLY_ASCII; /* the end of this line counts with the first number */
     return true;
 }
 
