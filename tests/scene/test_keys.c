@@ -189,7 +189,7 @@ static void every_list_has_its_bounds(void **state)
     assert_non_null(strstr(error.message, "fluids has 9 entries; it must have 1 to 8"));
 }
 
-/* By a scene of either method, or of the backend with a scalar of its own. */
+/* By a scene of either method, of the backend with a scalar of its own, or by a recorded run. */
 static bool is_taken(const char *setting, Scene *scene, Error *error)
 {
     for (int i = 0; method_list()[i]; i++) {
@@ -199,8 +199,9 @@ static bool is_taken(const char *setting, Scene *scene, Error *error)
         if (parse_text(everything, &settings, scene, error))
             return true;
     }
-    SceneSettings settings = {.count = 2, .set = {"solver.backend=fragment", setting}};
-    return parse_text(everything, &settings, scene, error);
+    SceneSettings settings = {.count = 2, .set = {"solver.backend=fragment", setting}},
+                  recorded = {.count = 1, .set = {setting}, .recorded = true};
+    return parse_text(everything, &settings, scene, error) || parse_text(everything, &recorded, scene, error);
 }
 
 static void every_name_of_a_choice_is_taken(void **state)

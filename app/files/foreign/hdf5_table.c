@@ -93,7 +93,8 @@ static bool list(const char *path, ForeignSeries *series, Error *error)
     if (file < 0)
         return false;
     H5Literate(file, H5_INDEX_NAME, H5_ITER_NATIVE, NULL, look, &listing);
-    qsort(series->step, series->count, sizeof *series->step, by_number);
+    if (series->count > 0)
+        qsort(series->step, series->count, sizeof *series->step, by_number);
     if (series->count == 0 && H5Lexists(file, gas, H5P_DEFAULT) > 0)
         listing.no_memory |= !foreign_series_add(series, path, SIZE_MAX, time_of(file, gas));
     H5Fclose(file);

@@ -145,19 +145,20 @@ static bool take_cells(Legacy *legacy, const char *line)
 static bool take_field(Legacy *legacy, const char *line)
 {
     char next[LINE_SIZE], name[128], type[32];
-    double arrays, components, tuples;
-    if (sscanf(line, "%*s %*s %lf", &arrays) != 1)
+    long arrays;
+    double components, tuples;
+    if (sscanf(line, "%*s %*s %ld", &arrays) != 1)
         return fail(legacy, "a field is 'FIELD NAME ARRAYS', not ", line);
-    for (double k = 0; k < arrays; k++) {
+    while (arrays > 0) {
         if (!take_line(legacy, next) ||
             sscanf(next, "%127s %lf %lf %31s", name, &components, &tuples, type) != 4) {
             if (strcmp(next, "METADATA") != 0)
                 return fail(legacy, "an array is 'NAME COMPONENTS TUPLES TYPE', not ", next);
             while (legacy->at < legacy->end && *legacy->at != '\n' && take_line(legacy, next))
                 ;
-            k--;
             continue;
         }
+        arrays--;
         double time = NAN;
         if (legacy->of_points && tuples == (double)legacy->count) {
             if (!take_array(legacy, name, components, type))

@@ -406,7 +406,7 @@ static void read_time(const Xml *xml, ForeignTable *table)
     quiet.error = &none;
     for (size_t n = 0; n < sizeof names / sizeof *names; n++)
         for (int k = 0; k < xml->array_count; k++) {
-            double time;
+            double time = NAN;
             if (xml->array[k].piece < 0 && strcmp(xml->array[k].name, names[n]) == 0 &&
                 read_numbers(&quiet, &xml->array[k], 1, &time) && isfinite(time)) {
                 table->time = time;

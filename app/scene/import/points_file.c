@@ -29,7 +29,7 @@ static bool find_columns(const Ply *ply, int column[WANTED])
 bool points_parse(const char *path, const char *bytes, size_t size, PointsFile *out, Error *error)
 {
     Ply ply;
-    int column[WANTED];
+    int column[WANTED] = {0};
     double value[PLY_PROPERTIES_MAX];
     *out = (PointsFile){0};
     if (!ply_begin(&ply, path, bytes, size, error) || !find_columns(&ply, column))
