@@ -23,7 +23,7 @@ static void check_table(const ForeignTable *table, size_t size)
     must(table->head_only || table->count <= 1032 * size);
     for (int k = 0; k < table->column_count; k++) {
         const ForeignColumn *column = &table->column[k];
-        must(column->components > 0 && column->role < FOREIGN_ROLES);
+        must(column->components > 0 && column->role < (int)FOREIGN_OTHERS_END);
         for (size_t i = 0; column->value && !table->head_only && i < table->count; i++)
             sum += column->value[i * (size_t)column->components + (size_t)column->components - 1];
     }
