@@ -160,8 +160,9 @@ static void choose_axes(SnapshotForeign *foreign, const SnapshotAssumptions *ass
     for (int k = 0; k < 3; k++)
         if (fabs(assume->gravity[k]) > fabs(assume->gravity[up]))
             up = k;
-    if (assume->gravity[up] != 0)
-        sign = assume->gravity[up] > 0 ? -1 : 1;
+    const double pull = assume->gravity[up];
+    if (pull != 0)
+        sign = pull > 0 ? -1 : 1;
     else if (flat == 1 || flat == 0)
         up = 2;
     turn_up(foreign, up, sign);
@@ -175,12 +176,12 @@ static void choose_axes(SnapshotForeign *foreign, const SnapshotAssumptions *ass
     foreign->scene.dimensions = flat >= 0 && foreign->axis[2] == flat ? 2 : 3;
     if (up != 1)
         notes_add(notes, "%.60s: %c is up, %s; slosh shows it along y", foreign->path, "xyz"[up],
-                  assume -> gravity[up] != 0 ? "as gravity says" : "as all particles lie in a plane with it");
-    else if (assume->gravity[up] == 0 && foreign->scene.dimensions == 3)
+                  pull != 0 ? "as gravity says" : "as all particles lie in a plane with it");
+    else if (pull == 0 && foreign->scene.dimensions == 3)
         notes_add(notes, "%.60s: y is taken as up; where z is, say --set gravity=[0,0,-9.81]", foreign->path);
     for (int k = 0; k < 3; k++)
         foreign->gravity[k] = foreign->sign[k] * assume->gravity[foreign->axis[k]];
-    if (assume->gravity[up] == 0)
+    if (pull == 0)
         foreign->gravity[1] = -9.81;
 }
 
