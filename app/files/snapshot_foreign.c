@@ -288,15 +288,17 @@ static double spacing_by_distances(const SnapshotForeign *foreign, const Foreign
     return rounded(spacing);
 }
 
-/* The median of finite values more than 0; `of` 0: of the role, else the spacing by mass and density. */
-static double median(const ForeignTable *table, ForeignRole role, int of_mass)
+/* The median of finite values more than 0, of the role; 0: none. `of_mass`: of the spacings by mass and
+   density, in so many dimensions. `kind`: of the particles of this fluid alone; NULL: of all. */
+static double median(const ForeignTable *table, ForeignRole role, int of_mass, const double *kind)
 {
     double *value = malloc((table->count + 1) * sizeof *value), middle = 0;
     size_t count = 0;
     for (size_t i = 0; value && i < table->count; i++) {
         const double one = component(table, role, 0, i);
         value[count] = of_mass ? pow(component(table, FOREIGN_MASS, 0, i) / one, 1.0 / of_mass) : one;
-        count += isfinite(value[count]) && value[count] > 0;
+        if (!kind || component(table, FOREIGN_FLUID, 0, i) == *kind)
+            count += isfinite(value[count]) && value[count] > 0;
     }
     if (count > 0) {
         qsort(value, count, sizeof *value, ascending);
@@ -315,7 +317,7 @@ static bool choose_spacing(SnapshotForeign *foreign, const SnapshotAssumptions *
     if (scene->spacing > 0)
         return true;
     if (has(table, FOREIGN_MASS) && has(table, FOREIGN_DENSITY))
-        scene->spacing = median(table, FOREIGN_DENSITY, scene->dimensions);
+        scene->spacing = median(table, FOREIGN_DENSITY, scene->dimensions, NULL);
     if (!(scene->spacing > 0)) {
         from = "the particles' distances";
         scene->spacing = spacing_by_distances(foreign, table);
@@ -337,18 +339,20 @@ static void choose_support(SnapshotForeign *foreign, const SnapshotAssumptions *
     double support = assume->support;
     const char *from = "as slosh's own by default";
     if (!(support > 0) && has(table, FOREIGN_SUPPORT)) {
-        support = median(table, FOREIGN_SUPPORT, 0) / scene->spacing;
+        support = median(table, FOREIGN_SUPPORT, 0, NULL) / scene->spacing;
         from = "of the file";
     } else if (!(support > 0) && has(table, FOREIGN_LENGTH)) {
-        support = 2 * median(table, FOREIGN_LENGTH, 0) / scene->spacing;
+        support = 2 * median(table, FOREIGN_LENGTH, 0, NULL) / scene->spacing;
         from = "twice the smoothing length";
     }
     if (!(support >= 1.5 && support <= 4)) {
-        from = support > 0 ? "as slosh's own by default: the file's is not of 1.5 to 4" : from;
+        from = assume->support > 0 ? "as slosh's own by default: particles.support must be 1.5 to 4"
+               : support > 0       ? "as slosh's own by default: the file's is not of 1.5 to 4"
+                                   : from;
         support = world_def_default().support;
     }
     scene->support_radius = support * scene->spacing;
-    if (assume->support <= 0)
+    if (support != assume->support)
         notes_add(notes, "%.60s: support radius %.4g spacings, %s; another: --set particles.support=...",
                   foreign->path, support, from);
 }
@@ -371,24 +375,6 @@ static bool add_kind(SnapshotForeign *foreign, double value)
     return true;
 }
 
-/* The median density of a fluid's particles; 0: none. */
-static double density_of_fluid(const SnapshotForeign *foreign, const ForeignTable *table, int fluid)
-{
-    double *value = malloc((table->count + 1) * sizeof *value), middle = 0;
-    size_t count = 0;
-    for (size_t i = 0; value && i < table->count; i++) {
-        value[count] = component(table, FOREIGN_DENSITY, 0, i);
-        if (foreign->kinds == 0 || component(table, FOREIGN_FLUID, 0, i) == foreign->kind[fluid])
-            count += isfinite(value[count]) && value[count] > 0;
-    }
-    if (count > 0) {
-        qsort(value, count, sizeof *value, ascending);
-        middle = value[count / 2];
-    }
-    free(value);
-    return middle;
-}
-
 static void choose_densities(SnapshotForeign *foreign, const SnapshotAssumptions *assume,
                              const ForeignTable *table, Notes *notes)
 {
@@ -396,7 +382,8 @@ static void choose_densities(SnapshotForeign *foreign, const SnapshotAssumptions
     const bool dense = has(table, FOREIGN_DENSITY);
     char words[200] = "", one[32];
     for (size_t k = 0; k < scene->fluid_count; k++) {
-        const double found = dense ? density_of_fluid(foreign, table, (int)k) : 0;
+        const double *kind = foreign->kinds > 0 ? &foreign->kind[k] : NULL;
+        const double found = dense ? median(table, FOREIGN_DENSITY, 0, kind) : 0;
         scene->density[k] = k == 0 && assume->density > 0 ? assume->density : found > 0 ? found : 1000;
         snprintf(one, sizeof one, "%.5g", scene->density[k]);
         add_words(words, sizeof words, ", ", one);

@@ -235,6 +235,10 @@ class Foreign(CommandTest):
         self.write('a.csv', table('x,y,z,vx,vy,vz,rho,id'))
         self.ok('render', 'a.csv', '-o', 'a.png', '--size', '64x48', '--quiet', '--set', 'gravity=[0,0,-9.81]', '--set', 'view.kind=slice',
                 '--set', 'view.color_by=speed')
+        draw = ['render', 'a.csv', '-o', 'a.png', '--size', '64x48', '--quiet', '--set']
+        self.assertIn('support radius 2.1 spacings, as slosh\'s own by default: particles.support must be 1.5 to 4',
+                      self.ok(*draw, 'particles.support=9'))
+        self.assertNotIn('support radius', self.ok(*draw, 'particles.support=3'))
         code, said = self.slosh('render', 'a.csv', '-o', 'a.png', '--set', 'solver.method=pbf')
         self.assertEqual(code, 2)
         self.assertIn('makes no sense for a.csv: nothing is simulated', said)
